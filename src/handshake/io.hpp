@@ -126,6 +126,8 @@ struct Outputs {
   PeerSet arm_timeout = 0;            ///< peers whose MessageReceiveTimeout starts anew now
 
   constexpr std::span<const StateChange> changes() const { return {change.data(), change_count}; }
+  /// Nothing has come of the step that others could see: neither a transition nor another word nor an intent. So it is of nearly all steps.
+  constexpr bool is_quiet() const { return change_count == 0 && !publish && !raised; }
   constexpr void add(StateChange next) {
     TAKT_CHECK(change_count < max_changes, "a step changes the state three times at most");
     change[change_count++] = next;

@@ -44,12 +44,12 @@ struct Publish {
   /// `paper` has no run; an observer may say in which one it was sent. No participant reads it.
   void set_run(std::uint32_t run) const { uadp::store_little_endian(octets.data() + fields_at, run); }
 };
-/// A state of a peer has been taken; the step follows.
+/// A state of a peer has been taken; the step follows, unless it is quiet.
 struct Heard {
   std::size_t peer = 0;
   handshake::Word word;
 };
-/// The participant has taken a step, and this is its word now.
+/// The participant has taken a step that is not quiet (handshake::Outputs), and this is its word now.
 struct Stepped {
   handshake::Outputs outputs;
   handshake::Word after;

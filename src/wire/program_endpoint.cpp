@@ -32,6 +32,7 @@ void ProgramEndpoint::forget(std::uint32_t incarnation) {
   settings_.handshake.incarnation = incarnation;
   participant_ = handshake::Participant<64>(settings_.handshake);
   states_.assign(participant_.peer_count(), {});
+  known_.assign(participant_.peer_count(), {});
   data_.assign(settings_.format->shape().data_sets.size(), {});
   data_sequence_.assign(data_.size(), 0);
   state_sequence_ = 0;
@@ -68,19 +69,31 @@ void ProgramEndpoint::set_cycle_alarm(const Turn& turn) {
 }
 
 Verdict ProgramEndpoint::receive(const Turn& turn, uadp::Octets network_message) {
-  const auto message = settings_.format->decode(network_message);
+  const ProgramFormat& format = *settings_.format;
+  const auto sender = format.sender_of(network_message);
+  const auto peer = sender ? peer_from(*sender) : std::nullopt;
+  // Nearly all states say what the one before said.
+  if (peer && known_[*peer].is_repeated_by(network_message)) return receive_state(turn, *peer, known_[*peer].message(static_cast<std::uint8_t>(*sender), network_message));
+  const auto message = format.decode(network_message);
   if (!message) {
     ++counts_.foreign;
-    return settings_.format->refusal_of(network_message);
+    return format.refusal_of(network_message);
   }
-  const std::uint8_t sender = std::visit([](const auto& m) { return m.sender; }, *message);
-  const std::size_t peer = sender == settings_.handshake.index ? participant_.peer_count() : participant_.peer_of(sender);
-  if (peer >= participant_.peer_count() || participant_.participant_of(peer) != sender) {
+  if (!peer) {
     ++counts_.unsubscribed;
     return Verdict::unsubscribed;
   }
-  if (const auto* const state = std::get_if<StateMessage>(&*message)) return receive_state(turn, peer, *state);
-  return receive_data(turn, peer, std::get<ProcessDataMessage>(*message));
+  if (const auto* const data = std::get_if<ProcessDataMessage>(&*message)) return receive_data(turn, *peer, *data);
+  const auto& state = std::get<StateMessage>(*message);
+  known_[*peer].note(network_message, state.word);
+  return receive_state(turn, *peer, state);
+}
+
+/// The peer that a participant is here, if it is heard.
+std::optional<std::size_t> ProgramEndpoint::peer_from(std::size_t sender) const {
+  if (sender == settings_.handshake.index) return std::nullopt;
+  const std::size_t peer = participant_.peer_of(sender);
+  return peer < participant_.peer_count() && participant_.participant_of(peer) == sender ? std::optional(peer) : std::nullopt;
 }
 
 void ProgramEndpoint::expect(std::size_t peer, std::optional<std::uint32_t> incarnation) {
@@ -132,7 +145,7 @@ bool Arrivals::take(std::uint16_t sequence, std::uint32_t of_life, sim::LocalTim
 /// What its outputs ask for comes behind it.
 Outputs ProgramEndpoint::step(const Turn& turn, const Input& input) {
   const Outputs outputs = participant_.step(input);
-  turn.out.add(side_, Stepped{outputs, participant_.word()});
+  if (!outputs.is_quiet()) turn.out.add(side_, Stepped{outputs, participant_.word()});
   if (outputs.begin_initialisation) {
     initialisation_run_ = outputs.initialisation_run;
     turn.out.add(side_, SetAlarm{initialised_alarm, turn.now + settings_.initialisation});

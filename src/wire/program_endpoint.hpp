@@ -95,6 +95,7 @@ class ProgramEndpoint {
 
   Verdict receive_state(const Turn& turn, std::size_t peer, const StateMessage& message);
   Verdict receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message);
+  std::optional<std::size_t> peer_from(std::size_t sender) const;
   bool is_new(Arrivals& arrivals, std::uint16_t sequence, std::uint32_t life, sim::LocalTime now);
   void publish_state(const Turn& turn);
   void publish_process_data(const Turn& turn);
@@ -104,6 +105,7 @@ class ProgramEndpoint {
   EndpointSettings settings_;
   handshake::Participant<64> participant_;
   std::vector<Arrivals> states_;              ///< by peer; their lives are incarnations, those of process data runs
+  std::vector<KnownState> known_;             ///< by peer: its last message that was sound
   std::vector<std::optional<std::uint32_t>> expected_;  ///< by peer: its only incarnation; empty: any
   std::vector<Arrivals> data_;                ///< by data set
   std::vector<std::uint16_t> data_sequence_;  ///< by data set, of the own ones

@@ -13,7 +13,6 @@ using uadp::BuiltInType;
 using uadp::RawField;
 
 // In UADP-Periodic-Fixed with a UInt16 PublisherId (OPC 10000-14, A.2.1.2).
-constexpr std::size_t publisher_id_at = 2;
 constexpr std::size_t writer_group_at = 5;
 // Upper half of the DataSetMessage's StatusCode; all fields are RawData, so it is that of each of them.
 constexpr std::size_t status_at = 18;
@@ -63,17 +62,17 @@ uadp::Octets ProgramFormat::encode(const StateMessage& message, std::span<std::b
   const uadp::PeriodicFixedLayout& layout = states_[message.sender];
   layout.start(target, message.sequence);
   layout.set_header(target, 0, message.sequence);
-  uadp::Writer writer(target.subspan(fields_at));
-  writer.put(static_cast<std::int32_t>(message.word.state));
+  // start() has seen that there is room; the constructor, that the fields end with the message.
+  std::byte* const fields = target.data() + fields_at;
+  uadp::store_little_endian(fields, static_cast<std::int32_t>(message.word.state));
   if (shape_.variant == Variant::robust) {
-    writer.put(message.word.incarnation);
-    writer.put(message.word.run);
-    writer.put(message.word.intent.number);
-    writer.put(message.word.intent.run);
-    writer.put(static_cast<std::uint8_t>(message.word.intent.kind));
-    writer.put(message.word.intent.origin);
+    uadp::store_little_endian(fields + 4, message.word.incarnation);
+    uadp::store_little_endian(fields + 8, message.word.run);
+    uadp::store_little_endian(fields + 12, message.word.intent.number);
+    uadp::store_little_endian(fields + 16, message.word.intent.run);
+    uadp::store_little_endian(fields + 20, static_cast<std::uint8_t>(message.word.intent.kind));
+    uadp::store_little_endian(fields + 21, message.word.intent.origin);
   }
-  TAKT_CHECK(fields_at + writer.position() == layout.size(), "the fields fill the message");
   return target.first(layout.size());
 }
 
@@ -81,21 +80,20 @@ uadp::Octets ProgramFormat::encode(const ProcessDataMessage& message, std::span<
   const uadp::PeriodicFixedLayout& layout = data_[message.data_set];
   layout.start(target, message.sequence);
   layout.set_header(target, 0, message.sequence);
-  uadp::Writer writer(target.subspan(fields_at));
-  writer.put(message.run);
-  writer.put_octets(message.fields);
-  TAKT_CHECK(message.fields.empty() || fields_at + writer.position() == layout.size(), "all fields of a data set, or none");
+  uadp::store_little_endian(target.data() + fields_at, message.run);
+  if (!message.fields.empty()) {
+    TAKT_CHECK(process_data_octets(0) + message.fields.size() == layout.size(), "all fields of a data set, or none");
+    std::copy(message.fields.begin(), message.fields.end(), target.begin() + process_data_octets(0));
+  }
   return target.first(layout.size());
 }
 
 std::optional<ProgramMessage> ProgramFormat::decode(uadp::Octets octets) const {
-  if (octets.size() < fields_at) return std::nullopt;
-  const auto id = uadp::load_little_endian<std::uint16_t>(octets.data() + publisher_id_at);
+  const auto sender = sender_of(octets);
+  if (!sender) return std::nullopt;
   const auto group = uadp::load_little_endian<std::uint16_t>(octets.data() + writer_group_at);
-  const std::size_t sender = static_cast<std::uint16_t>(id - shape_.first_publisher_id);
   const std::size_t data_set = static_cast<std::uint16_t>(group - first_data_writer_group);
-  if (sender >= states_.size()) return std::nullopt;
-  if (group == state_writer_group) return decode_state(static_cast<std::uint8_t>(sender), octets);
+  if (group == state_writer_group) return decode_state(static_cast<std::uint8_t>(*sender), octets);
   if (data_set >= data_.size()) return std::nullopt;
   return decode_data(static_cast<std::uint8_t>(data_set), octets);
 }

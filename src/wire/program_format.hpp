@@ -1,6 +1,9 @@
 // The messages of a Program in UADP-Periodic-Fixed: words and process data. See README.md for the octets.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <optional>
 #include <span>
 #include <variant>
@@ -40,6 +43,40 @@ struct StateMessage {
   bool operator==(const StateMessage&) const = default;
 };
 
+/// A state message that ProgramFormat::decode has read, to know the next one of its sender by its octets: all but the sequence numbers are the same.
+class KnownState {
+ public:
+  /// Precondition: decode has read `word` from `octets`.
+  void note(uadp::Octets octets, const handshake::Word& word) {
+    if (octets.size() < size) return;   // `paper`: too short to be worth it
+    std::copy_n(octets.begin(), size, octets_.begin());
+    word_ = word;
+    is_known_ = true;
+  }
+  bool is_repeated_by(uadp::Octets octets) const {
+    return is_known_ && octets.size() >= size && is_same<8>(octets, 0) && is_same<8>(octets, group_sequence_at - 8) && is_same<1>(octets, data_set_at) && is_same<8>(octets, status_at) &&
+           is_same<8>(octets, status_at + 8) && is_same<8>(octets, status_at + 16);
+  }
+  /// What octets that repeat it are; `sender` is its own.
+  StateMessage message(std::uint8_t sender, uadp::Octets octets) const { return {sender, uadp::load_little_endian<std::uint16_t>(octets.data() + data_set_at + 1), word_}; }
+
+ private:
+  // In UADP-Periodic-Fixed with a UInt16 PublisherId (OPC 10000-14, A.2.1.2): two sequence numbers are not compared.
+  static constexpr std::size_t size = state_octets(handshake::Variant::robust);
+  static constexpr std::size_t group_sequence_at = 13;
+  static constexpr std::size_t data_set_at = 15;
+  static constexpr std::size_t status_at = data_set_at + 3;
+  static_assert(status_at + 24 == size);
+  template <std::size_t count>
+  bool is_same(uadp::Octets octets, std::size_t at) const {
+    return std::memcmp(octets_.data() + at, octets.data() + at, count) == 0;
+  }
+
+  std::array<std::byte, size> octets_{};
+  handshake::Word word_;
+  bool is_known_ = false;
+};
+
 struct ProcessDataMessage {
   std::uint8_t sender = 0;     ///< participant; follows from the data set
   std::uint8_t data_set = 0;   ///< index in the Program
@@ -69,12 +106,21 @@ class ProgramFormat {
   /// Nothing if the octets are no message of this Program, or say what no participant says. Octets behind a message (padding of
   /// Ethernet) are passed over.
   std::optional<ProgramMessage> decode(uadp::Octets octets) const;
+  /// The participant of whom the octets are, if they are a message of this Program at all.
+  std::optional<std::size_t> sender_of(uadp::Octets octets) const {
+    if (octets.size() < fields_at) return std::nullopt;
+    const auto id = uadp::load_little_endian<std::uint16_t>(octets.data() + publisher_id_at);
+    const std::size_t sender = static_cast<std::uint16_t>(id - shape_.first_publisher_id);
+    return sender < states_.size() ? std::optional(sender) : std::nullopt;
+  }
   /// Why `decode` gives nothing for these octets.
   Verdict refusal_of(uadp::Octets octets) const;
 
  private:
   std::optional<ProgramMessage> decode_state(std::uint8_t sender, uadp::Octets octets) const;
   std::optional<ProgramMessage> decode_data(std::uint8_t data_set, uadp::Octets octets) const;
+
+  static constexpr std::size_t publisher_id_at = 2;  // in UADP-Periodic-Fixed with a UInt16 PublisherId (OPC 10000-14, A.2.1.2)
 
   ProgramShape shape_;
   std::uint32_t group_version_;

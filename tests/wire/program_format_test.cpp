@@ -61,6 +61,41 @@ TEST(ProgramFormat, OctetsOfARobustState) {
   EXPECT_EQ(state_octets(handshake::Variant::robust), 42u);
 }
 
+// A state is known again by its octets: exactly if nothing but its two sequence numbers differs.
+TEST(ProgramFormat, KnowsAStateAgain) {
+  const ProgramFormat format(shape());
+  Buffer buffer;
+  const uadp::Octets first = format.encode(sound(), buffer);
+  KnownState known;
+  EXPECT_FALSE(known.is_repeated_by(first));
+  known.note(first, sound().word);
+  EXPECT_TRUE(known.is_repeated_by(first));
+  for (std::size_t at = 0; at < first.size(); ++at) {
+    Buffer changed = buffer;
+    changed[at] ^= std::byte{1};
+    const bool is_sequence = at == 13 || at == 14 || at == 16 || at == 17;
+    EXPECT_EQ(known.is_repeated_by(uadp::Octets(changed).first(first.size())), is_sequence) << at;
+  }
+  EXPECT_FALSE(known.is_repeated_by(first.first(first.size() - 1)));
+  StateMessage next = sound();
+  next.sequence = 7;
+  Buffer other;
+  const uadp::Octets second = format.encode(next, other);
+  ASSERT_TRUE(known.is_repeated_by(second));
+  EXPECT_EQ(known.message(2, second), next);
+  EXPECT_EQ(format.sender_of(second), 2u);
+}
+
+// `paper` says so little that it is read anew each time.
+TEST(ProgramFormat, KnowsNoStateOfPaperAgain) {
+  const ProgramFormat format(shape(handshake::Variant::paper));
+  Buffer buffer;
+  const uadp::Octets octets = format.encode(sound(), buffer);
+  KnownState known;
+  known.note(octets, sound().word);
+  EXPECT_FALSE(known.is_repeated_by(octets));
+}
+
 TEST(ProgramFormat, OctetsOfAStateOfPaper) {
   const ProgramFormat format(shape(handshake::Variant::paper));
   Buffer buffer;

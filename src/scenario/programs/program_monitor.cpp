@@ -22,8 +22,7 @@ ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number
     : simulation_(&simulation), number_(number), observer_(variant, participants), tracker_(participants), nodes_(participants), is_dead_(participants, false), instants_(std::move(instants)), counts_(instants_) {}
 
 void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after) {
-  // Most steps change nothing: a word that says the same as the one before.
-  if (outputs.change_count == 0 && !outputs.publish && !outputs.raised) return;
+  if (outputs.is_quiet()) return;
   observer_.on_step(participant, outputs, after);
   const handshake::Origin origin = outputs.raised ? origin_of(outputs) : handshake::Origin();
   if (tree_ != nullptr) tree_->on_step(group_, participant, outputs, after, origin);
@@ -109,6 +108,7 @@ void ProgramMonitor::on_process_data(std::size_t from, std::size_t to, std::uint
 
 void ProgramMonitor::note_violations() {
   const std::span<const handshake::Violation> all = observer_.violations();
+  if (violations_.size() == all.size()) [[likely]] return;
   for (std::size_t i = violations_.size(); i < all.size(); ++i) violations_.push_back({simulation_->now(), all[i]});
 }
 

@@ -32,10 +32,22 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan, Share share) : s
     cross(link.b, link.a);
   }
   for (std::size_t p = 0; p < first_port_.back(); ++p) ports_[p].prepare();
+  fold_latencies();
   note_routes();
 }
 
 Network::~Network() = default;
+
+/// What a host draws for each frame that comes by its only link. Links that may fail, and those of nodes that may, are not plain.
+void Network::fold_latencies() {
+  for (const LinkPlan& link : plan_.links) {
+    for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
+      EgressPort& port = mutable_ports(from->node)[from->port];
+      if (plan_.nodes[to->node.value].forwards() || !hosts_[to->node.value]) continue;
+      port.link().fold_latency(port.sends_plainly() && !tells_ways_ ? hosts_[to->node.value]->drawn_latency() : nullptr);
+    }
+  }
+}
 
 void Network::note_routes() {
   routes_.emplace(traffic_.streams().size());
@@ -322,6 +334,8 @@ void Network::make_nodes() {
 /// What leaves the node leaves by a filtering entry.
 void Network::tell_ways() {
   traffic_.tell_separations(*simulation_);
+  tells_ways_ = true;
+  fold_latencies();
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
     if (plan_.nodes[n].forwards())
       bridges_[n]->tell_arrivals();

@@ -462,6 +462,8 @@ void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReas
 void EgressPort::start(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   if (record.link_local || simulation.trace() != nullptr) [[unlikely]]
     start_announced(simulation, frame, record);
+  else if (link_.folds_latency()) [[unlikely]]   // at the edge of a network only
+    link_.transmit_folded(simulation, frame, record);
   else
     link_.transmit(simulation, frame, record);
 }
@@ -469,7 +471,7 @@ void EgressPort::start(sim::Simulation& simulation, FrameIndex frame, const Fram
 /// The same where somebody wants to know.
 void EgressPort::start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   if (record.link_local) shared_->link_local->transmission_starts(simulation, id(), frame);
-  link_.transmit(simulation, frame, record);
+  link_.folds_latency() && !record.link_local ? link_.transmit_folded(simulation, frame, record) : link_.transmit(simulation, frame, record);
   if (sim::TraceSink* const trace = simulation.trace())
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, class_of(frame)}.pack()});
 }

@@ -40,6 +40,8 @@ class alignas(64) EgressPort final : public sim::Component {
   /// The direction of the link on which the port sends.
   Link& link() { return link_; }
   const Link& link() const { return link_; }
+  /// Every frame is put on the link by Link::transmit. After prepare().
+  bool sends_plainly() const { return !extras_ && link_.is_plain() && !link_.checks(); }
   /// The other direction, by which the node receives.
   Link& incoming() const { return *incoming_; }
   /// The node receives by another link from now on. Precondition: both are down.

@@ -26,6 +26,15 @@ void Link::expect_faults(const sim::Simulation& simulation, std::string_view pat
   if (!fault_) fault_ = std::make_unique<LinkFault>(simulation.seed(), path);
 }
 
+void Link::transmit_folded(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const sim::TrueTime now = simulation.now();
+  const Octets length{record.length};
+  free_at_ = now + octet_time() * wire_length(length).count;
+  wire_octets_sent_ += wire_length(length).count;
+  const sim::TrueTime arrival = now + octet_time() * (preamble_and_sfd + length).count + delay();
+  simulation.schedule(source_, latency_->pass(arrival), order_, static_cast<sim::EventKind>(NodeEvent::taken_in), ArrivalArgument::pack(frame, port()));
+}
+
 sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable) {
   unsigned flags = checks() || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : is_preemptable ? unsigned{ArrivalArgument::preemptable} : 0u;
   Octets told_after = preamble_and_sfd + Octets{record.length};
@@ -46,6 +55,7 @@ sim::TrueTime Link::transmit_rest(sim::Simulation& simulation, FrameIndex frame,
 }
 
 sim::TrueTime Link::schedule_arrival(sim::Simulation& simulation, FrameIndex frame, Octets told_after, unsigned flags) {
+  TAKT_CHECK(!folds_latency_, "the latencies of a host are drawn in the order of its frames");
   const sim::TrueTime arrival = simulation.now() + octet_time() * told_after.count + delay();
   constexpr auto kind = static_cast<sim::EventKind>(NodeEvent::frame_arrived);
   if (exchange_ != nullptr) [[unlikely]]

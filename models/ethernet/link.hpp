@@ -10,6 +10,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "models/ethernet/traffic.hpp"
 #include "models/fault/link_fault.hpp"
+#include "models/host/os_latency.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::models {
@@ -17,6 +18,7 @@ namespace takt::models {
 /// Event kinds that a node understands.
 enum class NodeEvent : sim::EventKind {
   frame_arrived = 0,  ///< the last bit is in and the node's fixed delay is over; argument: see ArrivalArgument
+  taken_in = 1,       ///< the same at a host, and its operating system has passed the frame on, too
   first_free = 16,    ///< kinds from here on belong to the node type
 };
 
@@ -90,8 +92,17 @@ class Link {
     exchange_ = &exchange;
     far_part_ = part;
   }
+  /// The receiver is a host that takes in all it gets in the order of this link, each frame after a latency that is drawn: `latency`, of the receiver, is asked when a
+  /// frame starts, which saves an event; null: the receiver does it itself. Precondition: is_plain(), not checks(), and transmit_any() is not called.
+  void fold_latency(LatencyLine* latency) {
+    latency_ = latency;
+    folds_latency_ = latency != nullptr;
+  }
+  bool folds_latency() const { return folds_latency_; }
   /// Nothing of all that, but that the receiver may look at each frame: the link is always up, and transmit() will do.
   bool is_plain() const { return reception_.noticed_priorities == 0 && exchange_ == nullptr && !fault_; }
+  /// The receiver looks at each frame.
+  bool checks() const { return static_cast<std::uint64_t>(every_arrival_) >> ArrivalArgument::port_bits != 0; }
 
   // The sending port.
   /// When the medium is free for the next frame: the gap after the last one is over.
@@ -99,7 +110,7 @@ class Link {
   /// The last bit of the frame under way leaves, or that of the last one has left.
   sim::TrueTime last_bit() const { return free_at_ - octet_time() * inter_packet_gap.count; }
 
-  /// Puts a frame on the free medium. Preconditions: is_plain(); nobody cuts the frame.
+  /// Puts a frame on the free medium. Preconditions: is_plain(); nobody cuts the frame; the frame is link-local or not folds_latency().
   void transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) { transmit(simulation, frame, record, 0); }
   /// The same with flags for the receiver; of a frame that may be cut, too. When the receiver is told of it.
   sim::TrueTime transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint64_t flags) {
@@ -113,6 +124,8 @@ class Link {
                         static_cast<sim::EventKind>(NodeEvent::frame_arrived), (static_cast<std::uint64_t>(every_arrival_) | flags << ArrivalArgument::port_bits) << ArrivalArgument::frame_bits | frame.value);
     return arrival;
   }
+  /// The same where folds_latency(), of a frame that is not link-local.
+  void transmit_folded(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   /// The same for any frame. When the receiver is told of it.
   sim::TrueTime transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable);
   /// The same for what is left of a frame that was cut.
@@ -170,7 +183,6 @@ class Link {
     return reception_.noticed_header + (frame.tagged ? vlan_tag : Octets{0}) + (frame.r_tagged ? r_tag : Octets{0});
   }
   std::uint16_t port() const { return static_cast<std::uint16_t>(every_arrival_); }
-  bool checks() const { return static_cast<std::uint64_t>(every_arrival_) >> ArrivalArgument::port_bits != 0; }
   void set_every_arrival(std::uint16_t port, unsigned flags) { every_arrival_ = (ArrivalArgument::pack(FrameIndex{0}, port, flags) >> ArrivalArgument::frame_bits) & 0xF'FFFF; }
   sim::Duration delay() const { return sim::Duration::from_ps(static_cast<std::int64_t>(delay_ps_)); }
 
@@ -178,11 +190,13 @@ class Link {
   std::uint64_t order_ = 0;                  // of events for the receiver (sim::Event::order_of)
   std::uint64_t delay_ps_ : 44 = 0;          // see LinkEnd::delay
   std::uint64_t every_arrival_ : 20 = 0;     // the argument of every arrival but for the frame: the port, and flags
+  std::uint64_t folds_latency_ : 1 = 0;      // latency_ is there
   sim::TrueTime free_at_;
   std::uint64_t wire_octets_sent_ = 0;
   [[no_unique_address]] sim::EventSource source_;  // of the sending port
   std::uint32_t octet_time_ps_ = 0;
   // The rest.
+  LatencyLine* latency_ = nullptr;           // see fold_latency()
   Traffic* traffic_ = nullptr;
   Reception reception_;
   std::uint64_t other_events_ = 0;

@@ -6,7 +6,7 @@
 
 namespace takt::models {
 namespace {
-constexpr auto deliver_now = static_cast<sim::EventKind>(NodeEvent::first_free);
+constexpr auto deliver_now = static_cast<sim::EventKind>(NodeEvent::taken_in);
 constexpr std::size_t few_listeners = 4;  // to go through them is faster than to search
 }
 

@@ -50,6 +50,8 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
     tells_arrivals_ = true;
     looks_closer_ = true;
   }
+  /// The latency of each frame that comes, for the only link by which frames come, to be drawn there; null if more happens when a frame comes.
+  LatencyLine* drawn_latency() { return receives_at_once_ || looks_closer_ || has_several_ways_ || cpu_ != nullptr ? nullptr : &receive_; }
   /// A host that is down takes no frames.
   void set_up(bool up) {
     up_ = up;

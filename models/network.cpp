@@ -43,8 +43,20 @@ void Network::fold_latencies() {
   for (const LinkPlan& link : plan_.links) {
     for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
       EgressPort& port = mutable_ports(from->node)[from->port];
-      if (plan_.nodes[to->node.value].forwards() || !hosts_[to->node.value]) continue;
-      port.link().fold_latency(port.sends_plainly() && !tells_ways_ ? hosts_[to->node.value]->drawn_latency() : nullptr);
+      if (plan_.nodes[to->node.value].forwards() || !hosts_[to->node.value] || !port.sends_plainly()) continue;
+      port.link().fold_latency(hosts_[to->node.value]->drawn_latency());
+    }
+  }
+}
+
+/// Whoever records the run is told of each arrival.
+void Network::unfold_latencies() {
+  for (const LinkPlan& link : plan_.links) {
+    for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
+      Link& direction = mutable_ports(from->node)[from->port].link();
+      if (!direction.folds_latency()) continue;
+      direction.fold_latency(nullptr);
+      hosts_[to->node.value]->arrive_for_recorder();
     }
   }
 }
@@ -334,8 +346,7 @@ void Network::make_nodes() {
 /// What leaves the node leaves by a filtering entry.
 void Network::tell_ways() {
   traffic_.tell_separations(*simulation_);
-  tells_ways_ = true;
-  fold_latencies();
+  unfold_latencies();
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
     if (plan_.nodes[n].forwards())
       bridges_[n]->tell_arrivals();

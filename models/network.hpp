@@ -122,6 +122,7 @@ class Network final : private LinkLocalSender {
   const Network& network_of(NodeIndex node) const { return adopted_.empty() ? *this : *adopted_[node.value]; }
   void note_routes();
   void fold_latencies();
+  void unfold_latencies();
   void cross(const LinkPlan::End& from, const LinkPlan::End& to);
   void number_ports();
   void make_nodes();
@@ -186,7 +187,6 @@ class Network final : private LinkLocalSender {
   std::vector<bool> bypassed_;                        // by node; empty until a bypass acts
   std::vector<Joint> joints_;                         // one that is down stays until another link takes its place: frames that it has lost have not all come to their end
   std::vector<std::uint32_t> cuts_;                   // by link: those of the reasons that are its own
-  bool tells_ways_ = false;
   std::vector<std::uint32_t> reasons_down_;           // by link: how many reasons it has to be down
   std::vector<std::uint32_t> crashes_;                // by node: how many crashes it has not come back from
   std::vector<std::unique_ptr<Talker>> talkers_;

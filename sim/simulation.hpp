@@ -43,6 +43,8 @@ class Simulation {
   TrueTime now() const { return now_; }
   std::uint64_t seed() const { return seed_; }
   std::uint64_t event_count() const { return events_; }
+  /// The event that is being handled is there for a recorder only: without one it would not be, and a run counts the same with and without.
+  void uncount_event() { --events_; }
   std::size_t pending() const { return queue_.size(); }
   std::size_t pending_peak() const { return pending_peak_; }
 

@@ -66,6 +66,7 @@ inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, Arri
 
 void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
   if (kind != deliver_now) {
+    if (arrives_for_recorder_ && !traffic_->frame(arrival.frame).link_local) simulation.uncount_event();
     const std::optional<FrameIndex> frame = look_closer(simulation, arrival);
     if (!frame) return;
     arrival.frame = *frame;

@@ -52,6 +52,8 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   }
   /// The latency of each frame that comes, for the only link by which frames come, to be drawn there; null if more happens when a frame comes.
   LatencyLine* drawn_latency() { return receives_at_once_ || looks_closer_ || has_several_ways_ || cpu_ != nullptr ? nullptr : &receive_; }
+  /// But for who records the run it would be drawn there: arrivals are events for the recorder only.
+  void arrive_for_recorder() { arrives_for_recorder_ = true; }
   /// A host that is down takes no frames.
   void set_up(bool up) {
     up_ = up;
@@ -106,6 +108,7 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   Cpu* cpu_ = nullptr;               // null: what comes takes no time of a processor
   std::uint32_t stack_thread_ = 0;
   bool tells_arrivals_ = false;
+  bool arrives_for_recorder_ = false;
 };
 
 }  // namespace takt::models

@@ -74,9 +74,7 @@ TEST(OsLatency, AFixedDelayIsADegenerateRandomOne) {
   EXPECT_EQ(digests[1], digests[0]);
   EXPECT_EQ(digests[2], digests[0]);
   EXPECT_EQ(events[1], events[0]);
-  // One more for each frame that was delivered; the last one may still be under way.
-  EXPECT_GE(events[2], events[0] + 999);
-  EXPECT_LE(events[2], events[0] + 1'000);
+  EXPECT_EQ(events[2], events[0]);  // what is there for the recorder only does not count
 }
 
 // Latencies that are drawn are the same whether a link draws them or the host does: in the order of the frames.

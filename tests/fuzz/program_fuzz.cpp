@@ -29,6 +29,22 @@ wire::ProgramFormat format_of(handshake::Variant variant) {
 /// Where a message holds what decoding gives: all but the sequence number of the group and the status, which nobody reads.
 bool is_unread(std::size_t octet) { return octet == 13 || octet == 14 || octet == 18 || octet == 19; }
 
+/// The same state with other octets, as decoding has it: one is known again by its octets only if it says the same.
+void check_known(const wire::ProgramFormat& format, uadp::Octets octets, const handshake::Word& word) {
+  wire::KnownState known;
+  known.note(octets, word);
+  std::vector<std::byte> other(octets.begin(), octets.end());
+  for (std::byte& octet : other) {
+    octet ^= std::byte{1};
+    if (known.is_repeated_by(other)) {
+      const auto message = format.decode(other);
+      const auto sender = format.sender_of(other);
+      if (!message || !sender || std::get<wire::StateMessage>(*message) != known.message(static_cast<std::uint8_t>(*sender), other)) fail("known as what it is not");
+    }
+    octet ^= std::byte{1};
+  }
+}
+
 void check(const wire::ProgramFormat& format, uadp::Octets octets) {
   const auto message = format.decode(octets);
   if (!message) return;
@@ -37,6 +53,7 @@ void check(const wire::ProgramFormat& format, uadp::Octets octets) {
   if (written.size() > octets.size()) fail("longer than it came");
   for (std::size_t i = 0; i < written.size(); ++i)
     if (!is_unread(i) && written[i] != octets[i]) fail("another message after a round trip");
+  if (const auto* const state = std::get_if<wire::StateMessage>(&*message)) check_known(format, octets, state->word);
 }
 
 }  // namespace

@@ -129,6 +129,11 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit
   how.may_route = options.routes == "search";
   how.entries = std::min<std::uint32_t>(options.entries, scenario::most_gate_entries);
   how.wants_slack = options.objective == "slack";
+  // The limit is that of the search.
+  if (synthesis::has_margin_to_measure(wanted)) {
+    how.clock_margin = synthesis::measure_clock_margin(wanted, diagnostics);
+    if (!how.clock_margin) return report_mistakes(diagnostics, options);
+  }
   how.search = search_options(options, Clock::now(), limit);
   const auto answer = synthesis::schedule_scenario(wanted, how, diagnostics);
   if (!answer) return report_mistakes(diagnostics, options);

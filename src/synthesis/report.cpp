@@ -39,6 +39,7 @@ const json::Record& describe(json::Type<ScenarioSchedule>) {
       json::output<&verdict>("verdict", "scheduled, infeasible or undecided."),
       json::output<&ScenarioSchedule::how>("how", "With given paths or searched ones; of an undecided scenario what stood in the way."),
       json::output_if_any<&ScenarioSchedule::most_entries>("gate_entries", "Entries of the longest gate control list.", "scheduled"),
+      json::output_if_any<&ScenarioSchedule::clock_margin>("clock_margin", "The margin \"auto\", and what it is made of.", "with \"margin\": \"auto\""),
       json::output_if_any<&slack>("slack_ps", "The greatest clock error that the schedule survives, with --objective slack.", "with --objective slack"),
       json::output_if_any<&slack_end>("slack_ends_because", "What is wrong with 1 ns more.", "with --objective slack"),
       json::output_if_any<&left_over>("left_over", "Streams that the best partial schedule leaves out.", "undecided"),
@@ -63,6 +64,12 @@ std::string text_of(const std::string& name, const ScenarioSchedule& answer) {
   }
   text += fmt::format(", {} streams, at most {} gate entries\n", answer.streams.size(), answer.most_entries);
   text += fmt::format("  judged: the checker finds nothing; {} frames simulated, none lost; {} of {} streams bounded\n", frames, bounded, answer.streams.size());
+  if (answer.clock_margin) {
+    const ClockMargin& clocks = *answer.clock_margin;
+    text += fmt::format("  margin {}: twice an error of {}, and {} that oscillators drift in a period and on the way\n", in_us(clocks.margin), in_us(clocks.error), in_us(clocks.on_the_way));
+    text += fmt::format("    measured {} in {} runs from {} on, and {} that oscillators drift between looks; {}\n", in_us(clocks.measured), clocks.seeds, json::to_text(clocks.from), in_us(clocks.between_looks),
+                        clocks.required ? "required " + in_us(*clocks.required) : "the error is a requirement \"sync\" of the schedule");
+  }
   if (answer.slack) text += fmt::format("  clocks may differ by {}; with 1 ns more {}\n", in_us(answer.slack->margin), answer.slack->with_more);
   text += fmt::format("  {:32} {:>14} {:>14} {:>14}\n", "stream", "planned", "simulated", "bound");
   for (const JudgedStream& each : answer.streams) text += fmt::format("  {:32} {:>14} {:>14} {:>14}\n", each.name, in_us(each.planned), in_us(each.simulated), each.bound ? in_us(*each.bound) : "-");

@@ -6,6 +6,8 @@
 
 #include "analysis/bounds.hpp"
 #include "evaluation/evaluate.hpp"
+#include "json/node.hpp"
+#include "json/quantity.hpp"
 #include "scenario/resolve/gate_limits.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
@@ -70,6 +72,14 @@ void judge(ScenarioSchedule& answer) {
     }
     for (const analysis::StreamBound& each : bounds.streams)
       if (each.name == stream.name) judged.bound = each.latency;
+    // Frames that are sent before clocks are synchronised miss their windows, and as a window has room for one frame what stands before it stays for ever.
+    const bool is_late = judged.delivered > 0 && (judged.simulated >= judged.planned + stream.period || (judged.bound && judged.simulated > *judged.bound));
+    if (is_late && answer.clock_margin && stream.release < answer.clock_margin->from) {
+      answer.how = fmt::format("{} is sent from {} on, clocks are synchronised from {} on, and until then it misses its windows; \"offset\": \"auto\" begins later", json::quote(stream.name),
+                               json::to_text(stream.release), json::to_text(answer.clock_margin->from));
+      answer.verdict = Verdict::undecided;
+      continue;
+    }
     if (judged.delivered > 0 && judged.bound && judged.simulated > *judged.bound) answer.wrong.push_back(fmt::format("bound: {} takes {} ps, and at most {} ps are bounded", stream.name, judged.simulated.ps(), judged.bound->ps()));
     // A frame that misses its window waits for the next one.
     if (judged.delivered > 0 && judged.simulated >= judged.planned + stream.period) answer.wrong.push_back(fmt::format("simulator: {} misses its windows", stream.name));
@@ -89,6 +99,19 @@ Scenario with_entries(Scenario scenario, std::uint32_t entries) {
   return scenario;
 }
 
+/// Streams that may begin when it suits begin when clocks are synchronised, whole periods later. Null if that cannot be.
+std::unique_ptr<Resolved> begin_later(std::unique_ptr<Resolved> resolved, const Scenario& asked, Duration from, std::string& why) {
+  Scenario later = resolved->scenario;
+  later.gates = asked.gates;
+  later.gates->margin = json::OrAuto<Duration>(resolved->gates->problem.margin);
+  for (scenario::Stream& stream : later.streams) {
+    const auto written = std::ranges::find(asked.streams, stream.name, &scenario::Stream::name);
+    if (written == asked.streams.end() || !written->offset || !written->offset->is_auto || !stream.every || !stream.offset) continue;
+    if (stream.offset->value < from) stream.offset->value += *stream.every * ((from - stream.offset->value + *stream.every - Duration::from_ps(1)) / *stream.every);
+  }
+  return resolve_quietly(later, why);
+}
+
 /// True if it is answered: scheduled, or lists too long for the devices.
 bool take(ScenarioSchedule& answer, const Scenario& asked, const ScenarioOptions& options, const char* how) {
   auto resolved = resolve_quietly(asked, answer.how);
@@ -96,6 +119,8 @@ bool take(ScenarioSchedule& answer, const Scenario& asked, const ScenarioOptions
   std::string unsaid;   // wider margins than devices take are none
   const auto resolve = [&unsaid](const Scenario& scenario) { return resolve_quietly(scenario, unsaid); };
   if (options.wants_slack) resolved = with_most_slack(std::move(resolved), asked, resolve, options.search.stop, answer.slack.emplace());
+  if (answer.clock_margin) resolved = begin_later(std::move(resolved), asked, answer.clock_margin->from, answer.how);
+  if (!resolved) return false;
   answer.most_entries = longest_list(*resolved);
   if (answer.most_entries > options.entries) {
     answer.how = fmt::format("a gate list of {} entries, and {} are allowed", answer.most_entries, options.entries);
@@ -105,6 +130,10 @@ bool take(ScenarioSchedule& answer, const Scenario& asked, const ScenarioOptions
   answer.verdict = Verdict::scheduled;
   answer.resolved = std::move(resolved);
   judge(answer);
+  if (answer.verdict != Verdict::scheduled) {
+    answer.resolved.reset();
+    return true;
+  }
   if (answer.slack && answer.resolved->gates->problem.margin != answer.slack->margin) answer.wrong.push_back("slack: windows are not as wide as the clock error that they are said to survive");
   if (answer.slack && answer.slack->with_more.empty()) answer.wrong.push_back("slack: clocks may differ by more than is said");
   return true;
@@ -113,12 +142,17 @@ bool take(ScenarioSchedule& answer, const Scenario& asked, const ScenarioOptions
 }  // namespace
 
 std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const ScenarioOptions& options, json::Diagnostics& diagnostics) {
-  const Scenario wanted = with_entries(asked, options.entries);
+  Scenario wanted = with_entries(asked, options.entries);
   if (!wanted.gates || wanted.gates->plan != scenario::GatePlanning::automatic) {
     diagnostics.error(wanted.where.at("gates"), "nothing to schedule", {"no automatic gates", "\"gates\": {\"plan\": \"auto\", \"classes\": [...]}, and \"offset\": \"auto\" where a stream may begin when it suits"});
     return std::nullopt;
   }
   ScenarioSchedule answer;
+  if (has_margin_to_measure(wanted)) {
+    answer.clock_margin = options.clock_margin ? options.clock_margin : measure_clock_margin(wanted, diagnostics);
+    if (!answer.clock_margin) return std::nullopt;
+    wanted = with_clock_margin(std::move(wanted), *answer.clock_margin);
+  }
   if (take(answer, wanted, options, "given paths")) return answer;
   // Is anything else wrong than that there is no schedule? Without gates it would be, too.
   Scenario bare = wanted;

@@ -8,6 +8,7 @@
 
 #include "scenario/resolve/resolved.hpp"
 #include "schedule/decide.hpp"
+#include "synthesis/clock_margin.hpp"
 #include "synthesis/slack.hpp"
 
 namespace takt::synthesis {
@@ -16,6 +17,7 @@ struct ScenarioOptions {
   bool may_route = true;                 ///< streams without a path and with "offset": "auto" may get one
   std::uint32_t entries = 1024;          ///< a gate list may have, besides what "gate_limits" of nodes say
   bool wants_slack = false;              ///< the greatest clock error, not the first schedule
+  std::optional<ClockMargin> clock_margin = {};   ///< for "margin": "auto"; empty: it is measured first
   schedule::SearchOptions search;
 };
 
@@ -36,6 +38,7 @@ struct ScenarioSchedule {
   std::optional<schedule::Certificate> certificate;
   std::vector<schedule::LeftOver> left_over;
   std::size_t most_entries = 0;
+  std::optional<ClockMargin> clock_margin;             ///< if "auto" was asked for
   std::optional<Slack> slack;                          ///< if it was asked for
   std::vector<std::string> wrong;                      ///< what a judge found; takt is wrong then
   std::vector<JudgedStream> streams;

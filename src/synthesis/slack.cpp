@@ -94,7 +94,7 @@ std::unique_ptr<Resolved> with_most_slack(std::unique_ptr<Resolved> resolved, co
   greatest_margin(slack.margin, [&](Duration margin) {
     if (stop()) return false;
     Scenario wider = asked;
-    wider.gates->margin = margin;
+    wider.gates->margin = json::OrAuto<Duration>(margin);
     auto made = resolve(wider);
     if (!made || !why_not_with(margin, *made->gates, made->scenario).empty()) return false;
     resolved = std::move(made);
@@ -104,7 +104,7 @@ std::unique_ptr<Resolved> with_most_slack(std::unique_ptr<Resolved> resolved, co
   // The same times with windows as wide as they may be.
   Scenario widest = resolved->scenario;
   widest.gates = asked.gates;
-  widest.gates->margin = slack.margin;
+  widest.gates->margin = json::OrAuto<Duration>(slack.margin);
   auto made = resolve(widest);
   return made ? std::move(made) : std::move(resolved);
 }

@@ -189,8 +189,8 @@ std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const resul
   } else {
     return {};
   }
-  if (scenario.gates && scenario.gates->margin)
-    knobs.push_back({"margin of the gates at most", times_below(*scenario.gates->margin), [](Scenario& changed, std::int64_t value) { changed.gates->margin = Duration::from_ps(value); }, as_time});
+  if (scenario.gates && scenario.gates->margin && !scenario.gates->margin->is_auto)
+    knobs.push_back({"margin of the gates at most", times_below(scenario.gates->margin->value), [](Scenario& changed, std::int64_t value) { changed.gates->margin = json::OrAuto<Duration>(Duration::from_ps(value)); }, as_time});
   knobs.push_back(link_rate(scenario));
   Workshop workshop(resolved, requirement, interrupted);
   std::vector<Remedy> found;

@@ -231,6 +231,7 @@ std::span<const Rule> port_rules() {
          return m.short_or_object("network_gates", &s);
        }},
       {.key = "network_gates.plan", .percent = 100, .make = [](Maker& m, const Scope&) -> Made { return text(m.wants(Feature::automatic_gates) ? "auto" : "listed"); }},
+      // Not "auto": `takt schedule` settles it, and other commands refuse it.
       {.key = "network_gates.margin", .feature = Feature::automatic_gates, .percent = 40, .words = "0ns 100ns 1us"},
       {.key = "network_gates.classes", .feature = Feature::automatic_gates, .percent = 100, .make = [](Maker& m, const Scope&) -> Made {
          // Those of the programs, if there are programs.

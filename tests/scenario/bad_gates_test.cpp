@@ -32,6 +32,8 @@ const BadCase cases[] = {
 2:55: error at /gates/classes: does not belong to this plan of gates: found "classes", expected it with "plan": "auto"
 2:69: error at /gates/guard: does not belong to this plan of gates: found "guard", expected it with "plan": "auto"
 2:95: error at /gates/lists: does not belong to this plan of gates: found "lists", expected it with "plan": "listed")"},
+    {"MarginToMeasure", with(good, R"("gates": {"plan": "auto", "classes": [6], "margin": "auto"})"),
+     R"(2:53: error at /gates/margin: a margin that is not known yet: found "auto", expected a duration, or takt schedule SCENARIO --out FILE, which measures it, and then FILE)"},
     {"ListsThatAreLaidOut", with(good, R"("gates": {"plan": "auto", "classes": [6], "lists": [{"node": "sw1", "gates": {"entries": [{"open": [], "for": "1us"}]}}]})"),
      R"(2:52: error at /gates/lists: does not belong to this plan of gates: found "lists", expected it with "plan": "listed")"},
     {"NoOffset", scheduled(R"({"name": "a", "from": "h1", "to": "h3", "payload": "100B", "every": "500us", "pcp": 6})"),

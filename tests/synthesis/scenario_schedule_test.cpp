@@ -185,5 +185,77 @@ TEST(ScenarioSchedule, WithoutAutomaticGatesThereIsNothingToDo) {
   EXPECT_NE(told.find("nothing to schedule"), std::string::npos) << told;
 }
 
+
+/// Two switches with a host each; their clocks are off by up to 50 ppm and are synchronised. Twelve seconds, of which the clocks have eight to settle.
+std::string with_clocks(const std::string& clocks, const std::string& more) {
+  return R"({"name": "clocks", "duration": "12s", "network": {"generate": [{"topology": "line", "switches": 2, "forwarding_delay": "1us"}]},
+ "clocks": {"all": {"offset": {"from": "-50ppm", "to": "50ppm"}, "granularity": "8ns"})" + clocks + R"(}, "gates": {"plan": "auto", "classes": [6], "margin": "auto"},
+ "streams": [{"name": "a", "from": "h1", "to": "h2", "payload": "100B", "every": "1ms", "offset": "auto", "pcp": 6}])" + more + "}";
+}
+const std::string gptp = R"(, "gptp": {"nodes": {"sw1": {"priority1": 100}}, "servo": {"first_step_threshold": "20us"}})";
+
+TEST(ScenarioSchedule, MarginIsMeasuredAndBounded) {
+  const auto answer = scheduled(with_clocks(gptp, R"(, "warm_up": "8s")"), false);
+  ASSERT_TRUE(answer);
+  ASSERT_EQ(answer->verdict, Verdict::scheduled) << answer->how;
+  ASSERT_TRUE(answer->clock_margin);
+  const ClockMargin& margin = *answer->clock_margin;
+  EXPECT_EQ(margin.seeds, 8u);
+  EXPECT_EQ(margin.from, sim::Duration::from_ps(8'000'000'000'000));
+  EXPECT_GT(margin.measured, sim::Duration());
+  EXPECT_LT(margin.measured, sim::Duration::from_ps(1'000'000));
+  // Looks each 100 us: at most 50 us to the nearest, in which two oscillators of 50 ppm drift 5 ns apart; in 1 ms and some us on the way some 100 ns.
+  EXPECT_NEAR(static_cast<double>(margin.between_looks.ps()), 5'000, 50);
+  EXPECT_NEAR(static_cast<double>(margin.on_the_way.ps()), 100'000, 1'000);
+  EXPECT_GE(margin.error, margin.measured + margin.between_looks);
+  EXPECT_GE(margin.margin, margin.error * 2 + margin.on_the_way);
+  EXPECT_EQ(margin.margin.ps() % 1'000, 0);
+  EXPECT_EQ(answer->resolved->gates->problem.margin, margin.margin);
+  // The schedule keeps the error as a requirement: bounds rest on it.
+  ASSERT_EQ(answer->resolved->scenario.require.size(), 1u);
+  EXPECT_EQ(answer->resolved->scenario.require[0].sync, margin.error);
+  EXPECT_EQ(answer->resolved->scenario.require[0].after, margin.from);
+  ASSERT_EQ(answer->streams.size(), 1u);
+  EXPECT_TRUE(answer->streams[0].bound);
+}
+
+// At 0 frames begin to miss windows, and never come out of it.
+TEST(ScenarioSchedule, WhatIsSentBeforeClocksAreSynchronisedIsNoSchedule) {
+  std::string early = with_clocks(gptp, R"(, "warm_up": "8s")");
+  early.replace(early.find(R"("offset": "auto")"), 16, R"("offset": "3us")");
+  const auto answer = scheduled(early, false);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->verdict, Verdict::undecided);
+  EXPECT_FALSE(answer->resolved);
+  EXPECT_NE(answer->how.find("\"a\" is sent from 3us on, clocks are synchronised from 8s on"), std::string::npos) << answer->how;
+}
+
+TEST(ScenarioSchedule, MarginKeepsToWhatIsRequiredOfClocks) {
+  const auto answer = scheduled(with_clocks(gptp, R"(, "require": [{"sync": "2us", "after": "8s"}])"), false);
+  ASSERT_TRUE(answer);
+  ASSERT_TRUE(answer->clock_margin);
+  EXPECT_EQ(answer->clock_margin->error, sim::Duration::from_ps(2'000'000));
+  EXPECT_EQ(answer->resolved->scenario.require.size(), 1u);
+}
+
+TEST(ScenarioSchedule, NoMarginOfClocksThatAreNotSynchronised) {
+  const auto told = [](const std::string& clocks, const std::string& more) {
+    std::string text;
+    EXPECT_FALSE(scheduled(with_clocks(clocks, more), false, 1024, &text));
+    return text;
+  };
+  const auto has = [](const std::string& text, const char* words) { return text.find("/gates/margin: " + std::string(words)) != std::string::npos; };
+  std::string text = told("", "");
+  EXPECT_TRUE(has(text, "a margin of clocks that nothing synchronises: found \"auto\" without gPTP")) << text;
+  text = told(R"(, "gptp": {"nodes": {"sw1": {"priority1": 100}}, "without": ["h1"]})", "");
+  EXPECT_TRUE(has(text, "a margin of clocks that nothing synchronises: found \"h1\" sends scheduled frames and is without gPTP")) << text;
+  text = told(gptp, R"(, "warm_up": "1ms")");
+  EXPECT_TRUE(has(text, "clocks that are not synchronised in time")) << text;
+  text = told(gptp, R"(, "require": [{"sync": "1ns", "after": "8s"}])");
+  EXPECT_TRUE(has(text, "clocks that are worse than is required")) << text;
+  text = told(gptp, R"(, "require": [{"sync": "1us", "after": "20s"}])");
+  EXPECT_NE(text.find("error"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace takt::synthesis

@@ -21,7 +21,7 @@ class ProblemWriter {
     problem().name = r_.scenario.name;
     problem().source = "takt";
     problem().model.is_strict = true;
-    if (r_.scenario.gates && r_.scenario.gates->margin) problem().model.margin = r_.scenario.gates->margin->ps();
+    if (r_.scenario.gates && r_.scenario.gates->margin) problem().model.margin = r_.scenario.gates->margin->value.ps();
     extras().duration = r_.scenario.duration;
     extras().seed = r_.scenario.seed;
     tell_what_has_no_place();

@@ -296,7 +296,7 @@ class ScenarioMaker {
   void plan_gates() {
     auto& gates = made_.gates.emplace();
     gates.plan = scenario::GatePlanning::automatic;
-    if (problem_.model.margin != 0) gates.margin = Duration::from_ps(problem_.model.margin);
+    if (problem_.model.margin != 0) gates.margin = json::OrAuto<Duration>(Duration::from_ps(problem_.model.margin));
     std::set<std::uint8_t> classes;
     for (StreamIndex s = 0; s < problem_.streams.size(); ++s) classes.insert(class_of(s));
     gates.classes.assign(classes.begin(), classes.end());

@@ -413,7 +413,7 @@ enum class GateGuard : std::uint8_t { length_aware, longest_frame };
 struct NetworkGates {
   json::Source where;
   GatePlanning plan = GatePlanning::none;
-  std::optional<Duration> margin = {};
+  std::optional<json::OrAuto<Duration>> margin = {};   ///< no gates are laid before "auto" is measured
   std::vector<std::uint8_t> classes = {};
   GateGuard guard = GateGuard::length_aware;
   std::vector<SetGates> lists = {};

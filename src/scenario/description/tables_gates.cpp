@@ -28,7 +28,7 @@ const json::Enumeration& describe(json::Type<GateGuard>) {
 const json::Object& describe(json::Type<NetworkGates>) {
   static constexpr json::Field fields[] = {
       optional<&NetworkGates::plan>("plan", "Where the gates come from."),
-      optional<&NetworkGates::margin>("margin", "With \"auto\": the clocks of any two nodes differ by at most this. 0 with ideal clocks, otherwise 1us if absent.", {.max = 1_s}),
+      optional<&NetworkGates::margin>("margin", "With \"auto\": the clocks of any two nodes differ by at most this. 0 with ideal clocks, otherwise 1us if absent. \"auto\": `takt schedule` measures it.", {.max = 1_s}),
       optional<&NetworkGates::classes>("classes", "With \"auto\": the scheduled traffic classes; those of the programs if absent. Every stream of them gets windows.",
                                        {.max_items = 8, .unique = true, .items = {.max = 7}}),
       optional<&NetworkGates::guard>("guard", "With \"auto\": how long before a window the other classes close."),

@@ -23,7 +23,7 @@ class Extraction {
     const std::size_t errors_before = diagnostics_.errors();
     find_ends();
     if (!find_classes()) return std::nullopt;
-    problem_.margin = gates_.margin.value_or(has_clocks() ? 1_us : Duration());
+    problem_.margin = gates_.margin ? gates_.margin->value : has_clocks() ? 1_us : Duration();
     if (r_.scenario.rerouting)
       diagnostics_.error(r_.scenario.rerouting->where.place(), "rerouting of scheduled streams", {"\"rerouting\" beside \"gates\": \"auto\", whose windows lie along one path", "one of the two"});
     for (const ResolvedStream& stream : r_.streams)

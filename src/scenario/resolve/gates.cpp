@@ -34,6 +34,8 @@ class GateResolver {
         diagnostics_.error(gates_.where.at(key), "does not belong to this plan of gates", {json::quote(key), "it with \"plan\": " + json::quote(spelling(plan))});
     };
     refuse(gates_.margin.has_value(), "margin", GatePlanning::automatic);
+    if (gates_.plan == GatePlanning::automatic && gates_.margin && gates_.margin->is_auto)
+      diagnostics_.error(gates_.where.at("margin"), "a margin that is not known yet", {"\"auto\"", "a duration, or takt schedule SCENARIO --out FILE, which measures it, and then FILE"});
     refuse(!gates_.classes.empty(), "classes", GatePlanning::automatic);
     refuse(gates_.guard != GateGuard::length_aware, "guard", GatePlanning::automatic);
     refuse(!gates_.lists.empty(), "lists", GatePlanning::listed);

@@ -81,6 +81,13 @@ inline scenario::Node node_of(const std::filesystem::path& path) {
   return scenario.network.nodes.front().second;
 }
 
+/// What was written, to be read again.
+inline std::vector<InputFile> inputs(const Exported& exported) {
+  std::vector<InputFile> files;
+  for (const OutputFile& file : exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
+  return files;
+}
+
 /// What the ports of two nodes are set to is the same, whatever their neighbours are called.
 inline void expect_same_ports(const scenario::Node& found, const scenario::Node& expected, const std::string& what) {
   const scenario::NodePorts& a = scenario::ports_of(found);

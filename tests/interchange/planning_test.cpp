@@ -7,12 +7,6 @@ namespace {
 
 Exported written(const std::string& format, const scenario::Resolved& resolved) { return find_export_format(format)->write({resolved, {}, {}}); }
 
-std::vector<InputFile> inputs(const Exported& exported) {
-  std::vector<InputFile> files;
-  for (const OutputFile& file : exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
-  return files;
-}
-
 /// What a problem can say of a scenario: its network and its periodic streams.
 scenario::Scenario plannable(const scenario::Scenario& whole) {
   scenario::Scenario bare;

@@ -70,12 +70,6 @@ TEST(YangRedundancy, WhatTheTablesCannotSayIsTold) {
   EXPECT_TRUE(says(written("tsn/frer-ring.json", {"dialect=2018"}).exported, "no module of 2018"));
 }
 
-std::vector<InputFile> inputs(const Exported& exported) {
-  std::vector<InputFile> files;
-  for (const OutputFile& file : exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
-  return files;
-}
-
 /// The scenario without what the tables say of redundancy: without all of it, or with nothing but the ways of the copies.
 scenario::Scenario without_redundancy(const scenario::Scenario& whole) {
   scenario::Scenario bare = whole;

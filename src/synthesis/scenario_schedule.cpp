@@ -53,6 +53,15 @@ Duration planned_latency(const scenario::GatePlan& plan, std::size_t s) {
   return most;
 }
 
+/// From when on clocks are said to be synchronised; nothing where none have to be.
+std::optional<Duration> synchronised_from(const ScenarioSchedule& answer) {
+  if (answer.clock_margin) return answer.clock_margin->from;
+  if (answer.resolved->plan.gptp.empty()) return std::nullopt;
+  for (const scenario::Requirement& required : answer.resolved->scenario.require)
+    if (required.sync) return required.after.value_or(answer.resolved->scenario.warm_up);
+  return answer.resolved->scenario.warm_up;
+}
+
 void judge(ScenarioSchedule& answer) {
   const Resolved& resolved = *answer.resolved;
   answer.wrong = schedule_check::check(resolved.gates->problem, resolved.gates->schedule);
@@ -61,6 +70,7 @@ void judge(ScenarioSchedule& answer) {
   run.advance();
   const results::RunResult result = evaluation::evaluate(run, false);
   const analysis::Bounds bounds = analysis::bound(resolved);
+  const std::optional<Duration> synchronised = synchronised_from(answer);
   for (std::size_t s = 0; s < resolved.gates->problem.streams.size(); ++s) {
     const scenario::ScheduledStream& stream = resolved.gates->problem.streams[s];
     JudgedStream judged{stream.name, planned_latency(*resolved.gates, s), 0, {}, {}};
@@ -74,9 +84,9 @@ void judge(ScenarioSchedule& answer) {
       if (each.name == stream.name) judged.bound = each.latency;
     // Frames that are sent before clocks are synchronised miss their windows, and as a window has room for one frame what stands before it stays for ever.
     const bool is_late = judged.delivered > 0 && (judged.simulated >= judged.planned + stream.period || (judged.bound && judged.simulated > *judged.bound));
-    if (is_late && answer.clock_margin && stream.release < answer.clock_margin->from) {
+    if (is_late && synchronised && stream.release < *synchronised) {
       answer.how = fmt::format("{} is sent from {} on, clocks are synchronised from {} on, and until then it misses its windows; \"offset\": \"auto\" begins later", json::quote(stream.name),
-                               json::to_text(stream.release), json::to_text(answer.clock_margin->from));
+                               json::to_text(stream.release), json::to_text(*synchronised));
       answer.verdict = Verdict::undecided;
       continue;
     }

@@ -230,6 +230,18 @@ TEST(ScenarioSchedule, WhatIsSentBeforeClocksAreSynchronisedIsNoSchedule) {
   EXPECT_NE(answer->how.find("\"a\" is sent from 3us on, clocks are synchronised from 8s on"), std::string::npos) << answer->how;
 }
 
+// A margin in numbers is no other.
+TEST(ScenarioSchedule, NorIsItWithAMarginThatIsSaid) {
+  std::string early = with_clocks(gptp, R"(, "require": [{"sync": "490ns", "after": "8s"}])");
+  early.replace(early.find(R"("offset": "auto")"), 16, R"("offset": "3us")");
+  early.replace(early.find(R"("margin": "auto")"), 16, R"("margin": "1100ns")");
+  const auto answer = scheduled(early, false);
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->wrong.empty()) << answer->wrong.front();
+  EXPECT_EQ(answer->verdict, Verdict::undecided);
+  EXPECT_NE(answer->how.find("\"a\" is sent from 3us on, clocks are synchronised from 8s on"), std::string::npos) << answer->how;
+}
+
 TEST(ScenarioSchedule, MarginKeepsToWhatIsRequiredOfClocks) {
   const auto answer = scheduled(with_clocks(gptp, R"(, "require": [{"sync": "2us", "after": "8s"}])"), false);
   ASSERT_TRUE(answer);

@@ -29,6 +29,17 @@ TEST(ResolvedCopy, OfEveryShippedScenario) {
   }
 }
 
+// What every copy says, since it is there by itself, is nothing to be warned of.
+TEST(ResolvedCopy, WarnsOfNothingOfItsOwn) {
+  for (const std::string& name : shipped_names()) {
+    json::Diagnostics original, copy;
+    const auto resolved = load_file(shipped_path(name), {"/duration=60ms"}, original);
+    ASSERT_TRUE(resolved) << name;
+    ASSERT_TRUE(load_text(json::encode(resolved->scenario), shipped_path(name), {}, copy)) << name;
+    EXPECT_EQ(copy.warnings(), original.warnings()) << name << "\n" << copy.to_text() << "\n" << original.to_text();
+  }
+}
+
 TEST(ResolvedCopy, OfAScenarioWithEverything) {
   const auto r = sound(R"({
   "$schema": "x", "name": "all", "description": "every key", "seed": 18446744073709551615, "duration": "3ms", "clocks": "ideal", "allow_overload": true,

@@ -12,7 +12,7 @@ class IdleCpu {
 
   void tell() {
     const auto is_fair = [](const CpuThread& thread) { return thread.policy == SchedulingPolicy::fair; };
-    if (cpu_.where.has("slice") && std::count_if(cpu_.threads.begin(), cpu_.threads.end(), is_fair) < 2)
+    if (cpu_.where.has("slice") && cpu_.slice != Cpu{}.slice && std::count_if(cpu_.threads.begin(), cpu_.threads.end(), is_fair) < 2)
       warn_once(diagnostics_, cpu_.where.at("slice"), "a slice that nobody shares", {json::to_text(cpu_.slice) + " beside fewer than two threads of policy \"fair\"", "two of them"});
     for (const CpuThread& thread : cpu_.threads) tell(thread);
   }

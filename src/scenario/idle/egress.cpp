@@ -70,7 +70,7 @@ class EgressTeller {
     const bool is_held = std::any_of(ports_.begin(), ports_.end(), [](const PortUse* port) { return holds(*port); });
     if (preemption.hold_advance && !is_held)
       warn(preemption.where.at("hold_advance"), "an advance of what is never held", {"no gate list that holds", "an entry with \"mac\": \"hold\""});
-    if (preemption.where.has("release_advance") && !is_held)
+    if (preemption.release_advance != Duration() && !is_held)
       warn(preemption.where.at("release_advance"), "an advance of what is never held", {"no gate list that holds", "an entry with \"mac\": \"hold\""});
     const bool is_cut = std::any_of(ports_.begin(), ports_.end(), [&](const PortUse* port) { return (port->classes & preemptable) != 0 && ((port->classes & ~preemptable) != 0 || holds(*port)); });
     if (!is_cut && (preemptable & in_use()) != 0)

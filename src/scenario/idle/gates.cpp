@@ -89,7 +89,7 @@ void tell_idle_drops(const Queues& queues, json::Diagnostics& diagnostics) {
     if (where.has("drop")) warn_once(diagnostics, where.at("drop"), "what a full queue loses, of queues that are never full", {"neither \"frames\" nor \"octets\"", "a limit"});
   };
   const bool are_limited = queues.frames || queues.octets;
-  bool acts = are_limited;
+  bool acts = are_limited || queues.drop == Queues{}.drop;   // what stands in every written copy tells nothing
   for (const Queues::PerClass& one : queues.classes) {
     if (!one.frames && !one.octets && !are_limited) tell(one.where);
     else acts = acts || !one.drop;
@@ -121,7 +121,7 @@ void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
     if (relay == nullptr) continue;
     if (relay->forwarding_jitter && !r.plan.nodes[static_cast<std::size_t>(&node - r.topology.nodes.data())].forwarding_jitter)
       warn_once(diagnostics, relay->forwarding_jitter->where.place(), "a jitter of nothing", {"at most 0s", "a time"});
-    if (!node.where.has("cut_through_header")) continue;
+    if (!node.where.has("cut_through_header") || relay->cut_through_header == Relay{}.cut_through_header) continue;
     if (std::ranges::all_of(ports_of(node.description).egress, [](const Egress& egress) { return egress.cut_through.empty(); }))
       warn_once(diagnostics, node.where.at("cut_through_header"), "a header where nothing is cut through", {"no \"cut_through\" in \"egress\" of " + json::quote(node.name), "classes that are cut through"});
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "scenario/idle/usage.hpp"
 
@@ -93,8 +94,11 @@ void tell_idle_clocks(const Usage& usage, json::Diagnostics& diagnostics) {
   const Resolved& r = usage.resolved();
   const Clocks& clocks = r.scenario.clocks;
   const auto tell = [&](const Clock& clock) {
-    for (const std::string_view key : {"offset", "drift", "temperature", "walk", "table", "update"})
-      if (clock.ideal && clock.where.has(key)) warn_once(diagnostics, clock.where.at(key), "an oscillator of an ideal clock", {"\"ideal\": true beside it", "one of them"});
+    const Clock none;
+    const std::pair<const char*, bool> said[] = {{"offset", clock.offset != none.offset}, {"drift", clock.drift != none.drift}, {"temperature", clock.temperature.has_value()},
+                                                 {"walk", clock.walk.has_value()}, {"table", !clock.table.empty()}, {"update", clock.update != none.update}};
+    for (const auto& [key, is_said] : said)
+      if (clock.ideal && is_said) warn_once(diagnostics, clock.where.at(key), "an oscillator of an ideal clock", {"\"ideal\": true beside it", "one of them"});
     for (std::size_t i = 0; i < clock.table.size(); ++i)
       if (usage.is_after_the_end(clock.table[i].at))
         warn_once(diagnostics, clock.where.at("table", i), "after the end of the simulation", {json::to_text(clock.table[i].at), "less than " + json::to_text(r.scenario.duration)});

@@ -113,10 +113,9 @@ function(takt_library name)
   target_compile_features(${name} ${reach} cxx_std_20)
 endfunction()
 
-# takt_test(NAME [SINGLY] SOURCES a_test.cpp ... LINKS takt_sim ...): one GoogleTest binary, run by ctest as one test. Its sources are compiled together too, SINGLY not, where what one
-# of them includes gets in the way of the others.
+# takt_test(NAME SOURCES a_test.cpp ... LINKS takt_sim ...): one GoogleTest binary, run by ctest as one test. Its sources are compiled together too (TAKT_UNITY).
 function(takt_test name)
-  cmake_parse_arguments(ARG "SINGLY" "" "SOURCES;LINKS;DEFINES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;DEFINES" ${ARGN})
   if(NOT TAKT_TESTS)
     return()
   endif()
@@ -125,7 +124,7 @@ function(takt_test name)
   target_compile_definitions(${name} PRIVATE TAKT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINES})
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-Og>)
   takt_precompiled(${name} TESTS)
-  if(TAKT_UNITY AND NOT ARG_SINGLY)
+  if(TAKT_UNITY)
     takt_unity(${name})
   endif()
   add_test(NAME ${name} COMMAND ${name})

@@ -41,6 +41,7 @@ class RouteMaker {
       make_members(flow, *redundancy);
       return;
     }
+    if (redundancy != nullptr) prepare_copies(graph_.flows[flow], flow, *redundancy);
     const auto possible = possible_paths(r_, stream, plan.vlan, plan.destination);
     if (!possible) graph_.uncertain_paths.push_back(plan.name);
     if (possible && !possible->empty()) {
@@ -79,6 +80,27 @@ class RouteMaker {
   static constexpr std::uint32_t nobody = 0xFFFF'FFFF;
   static constexpr std::uint32_t bypassed = 0x8000'0000;     // with the number of a node
   static constexpr std::size_t first_prefix = 0x1'0000;      // more than a stream has members
+
+  /// What is known of copies that are made at known times: whether they leave their talker one behind the other, and whether they come to the merge one after the other.
+  void prepare_copies(Flow& flow, std::uint32_t number, const scenario::ResolvedRedundancy& redundancy) {
+    come_apart_ = false;
+    if (!flow.produced || redundancy.is_ladder()) return;
+    if (redundancy.splits_in_host && !flow.train) flow.train = number;   // those of Programs are numbers of flows of their own
+    Ps least = unbounded_ps, most = 0, longest = 0;
+    const scenario::ResolvedStream& stream = r_.streams[flow.stream.value];
+    const sim::Octets frame = models::frame_length(r_.plan.streams[stream.index.value].headers + flow.payload.value_or(stream.largest_payload), true, true);
+    for (const Path& path : stream.paths) {
+      Ps way = 0;
+      for (std::size_t at = 0; at + 1 < path.size() && path[at] != redundancy.merge; ++at) {
+        const GraphPort& port = graph_.ports[port_at_.at({path[at], *r_.topology.port_towards(path[at], path[at + 1])})];
+        longest = std::max(longest, port.octet_time * models::wire_length(frame).count);
+        way = sum(way, port.octet_time * models::wire_length(frame).count, port.propagation, r_.plan.nodes[path[at + 1]].greatest_forwarding_delay().ps());
+      }
+      least = std::min(least, way);
+      most = std::max(most, way);
+    }
+    come_apart_ = most - least > longest;
+  }
 
   void add_possible(std::uint32_t flow, const std::vector<PossiblePath>& possible, const scenario::ResolvedRedundancy* redundancy, const scenario::OnHop& on, models::AddressIndex address) {
     for (const PossiblePath& each : possible) {
@@ -186,6 +208,7 @@ class RouteMaker {
     const sim::Octets smallest = graph_.flows[flow].payload ? std::min(*graph_.flows[flow].payload, least_dds_message) : smallest_payload(stream);
     std::uint32_t parent = nobody;
     bool tagged = plan.priority.has_value();
+    bool is_copied = false;   // somewhere before
     Ps beyond = 0;
     for (std::size_t at = 0; at + 1 < path.size(); ++at) {
       if (is_bypassed != nullptr && (*is_bypassed)[at]) {
@@ -201,7 +224,10 @@ class RouteMaker {
       const models::PortConfig& config = r_.plan.port_configs[graph_.ports[port].config];
       if (scenario::strips_tags(r_.topology, config, path[at], at == 0)) tagged = false;
       // In a ladder, too, what has come another way is another flow until all of it is one again.
-      const bool is_by_prefix = is_rerouted || (here.member && redundancy->is_ladder());
+      // And behind a merge whose gates are laid for each of the ways: what comes by the longer one does not come at any time in between.
+      const bool is_apart = is_copied && !here.member && come_apart_ && config.shaping.gates;
+      const bool is_by_prefix = is_rerouted || (here.member && redundancy->is_ladder()) || is_apart;
+      is_copied = is_copied || here.member;
       const std::size_t member = is_by_prefix ? number_of_prefix(path, at, is_bypassed) : here.member ? *here.member + 1 : 0;
       const auto [known, is_new] = hop_at_.try_emplace({member, path[at], port_number}, static_cast<std::uint32_t>(graph_.hops.size()));
       const std::uint32_t hop = known->second;
@@ -366,6 +392,7 @@ class RouteMaker {
   std::map<std::uint32_t, const scenario::ResolvedRedundancy*> redundancy_;
   std::map<std::tuple<std::size_t, std::uint32_t, std::uint16_t>, std::uint32_t> hop_at_;   // by member or prefix, node, port
   std::map<Path, std::size_t> prefixes_;   // of a flow that may go several ways
+  bool come_apart_ = false;                // its copies come to the merge one after the other
   bool has_bypass_ = false;
 };
 

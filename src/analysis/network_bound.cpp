@@ -53,7 +53,7 @@ class FixedPoint {
       const Hop& hop = graph_.hops[h];
       PortFlow flow;
       flow.train = train_of(h);
-      flow.rank = hop.flow;
+      flow.rank = h;   // hops are made flow by flow, and those of copies in the order in which they leave the talker
       flow.frame = hop.frame;
       flow.shortest = hop.shortest;
       flow.lowest_class = hop.lowest_class;

@@ -72,6 +72,13 @@ class Checker {
     }
   }
 
+  /// One of two copies of a frame that leave the talker by one port, behind the other; or one of two ways on which a frame may come from a merge, of which it takes one.
+  bool is_copy(std::size_t later, std::size_t hop_later, std::size_t earlier, std::size_t hop_earlier) const {
+    if (later != earlier || hop_later == hop_earlier) return false;
+    if (hop(later, hop_later).is_merged && hop(earlier, hop_earlier).is_merged) return true;
+    return hop_earlier < hop_later && !hop(later, hop_later).previous && !hop(earlier, hop_earlier).previous;
+  }
+
   void check_begin(std::size_t s, std::size_t h) {
     const ScheduledHop& at = hop(s, h);
     const std::int64_t start = window(s, h).start.ps();
@@ -84,10 +91,10 @@ class Checker {
     if (at.previous) there = window(s, *at.previous).start.ps() + hop(s, *at.previous).transmission.ps() + hop(s, *at.previous).behind.ps();
     if (start < there) return say("{} begins at {} ps, but cannot be there before {} ps", name(s, h), start, there);
     if (at.previous ? start == there : start < there + ns) return;
-    // It waits: for the frame before it in its train, which must end just then.
-    for (std::size_t a = 0; a < s; ++a)
+    // It waits: for the frame before it in its train, or the copy before it, which must end just then.
+    for (std::size_t a = 0; a <= s; ++a)
       for (std::size_t g = 0; g < stream(a).hops.size(); ++g)
-        if (is_behind(s, h, a, g) && window(a, g).start.ps() + hop(a, g).transmission.ps() + problem_.ports[at.port].gap.ps() == start) return;
+        if ((is_behind(s, h, a, g) || (!at.previous && is_copy(s, h, a, g) && hop(a, g).port == at.port)) && window(a, g).start.ps() + hop(a, g).transmission.ps() + problem_.ports[at.port].gap.ps() == start) return;
     say("{} waits from {} ps to {} ps for nothing", name(s, h), there, start);
   }
 
@@ -170,7 +177,7 @@ class Checker {
         const Passage& b = passages[j];
         if (b.earliest + round >= a.latest + gap) break;
         // In order since the talker, and of one turn of their train.
-        const bool follows = is_behind(b.stream, b.hop, a.stream, a.hop) &&
+        const bool follows = (is_behind(b.stream, b.hop, a.stream, a.hop) || is_copy(b.stream, b.hop, a.stream, a.hop)) &&
                              b.earliest + round - a.earliest == window(b.stream, b.hop).start.ps() - window(a.stream, a.hop).start.ps();
         if (!follows) {
           say("{} and {} meet at {} ps", name(a.stream, a.hop), name(b.stream, b.hop), static_cast<std::int64_t>((b.earliest + round) % cycle));

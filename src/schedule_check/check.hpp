@@ -14,7 +14,7 @@ namespace takt::schedule_check {
 ///   followed since the talker; no frame is there before;
 /// - for every frame of a cycle and wherever its clock may be within the margin, the gate of its class is open from its begin to its end, and
 ///   the gates of classes without windows are closed, from a guard before on;
-/// - frames of different trains, or of one train that come by different ways, never meet, whatever the clocks say within the margin;
+/// - frames of different trains, or of one train that come by different ways, never meet, whatever the clocks say within the margin; of two ways behind a merge of copies a frame takes one;
 /// - a scheduled class is open in its windows only (to the ns), and the other classes are open in all that is left;
 /// - where the device of a port has limits they are kept; then time of the other classes may be missing, and while they are closed a scheduled class may be open outside its windows
 ///   if none of its frames waits there for a window;

@@ -49,6 +49,10 @@ std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const 
   for (std::size_t s = 0; s < gated->problem.streams.size(); ++s) {
     const scenario::ScheduledStream& gate = gated->problem.streams[s];
     const scenario::ResolvedStream& from = resolved.streams[gated->streams[s].value];
+    if (std::ranges::find(resolved.redundancies, from.index, &scenario::ResolvedRedundancy::stream) != resolved.redundancies.end()) {
+      why_not = gate.name + " is redundant, and its copies go several ways";
+      return std::nullopt;
+    }
     if (of_train[gate.train] > 1 || gate.early > scenario::Duration()) {
       why_not = gate.name + (of_train[gate.train] > 1 ? " is one of several that leave at one instant" : " is at its talker's port at no exact time");
       return std::nullopt;

@@ -1,6 +1,7 @@
 #include "scenario/gates/crossings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/check.hpp"
 
@@ -38,6 +39,13 @@ bool Crossings::follows(Crossing later, Crossing earlier) const {
   return hop(earlier_before).port == hop(later_before).port && follows(later_before, earlier_before);
 }
 
+bool Crossings::is_same_frame(Crossing later, Crossing earlier) const {
+  if (later.stream != earlier.stream || later.hop == earlier.hop) return false;
+  const bool is_behind_merge = hop(later).is_merged && hop(earlier).is_merged;
+  if (!is_behind_merge && (hop(later).previous || hop(earlier).previous)) return false;
+  return std::pair(window(later).start, later.hop) > std::pair(window(earlier).start, earlier.hop);
+}
+
 bool Crossings::share_a_queue(Crossing a, Crossing b) const {
   if (waiting_ == Waiting::nowhere || hop(a).previous || hop(b).previous || hop(a).traffic_class != hop(b).traffic_class) return false;
   if (problem_->streams[a.stream].train == problem_->streams[b.stream].train) return false;
@@ -67,6 +75,9 @@ void Crossings::follow(std::uint32_t s) {
     start += at.wait;
     for (const Crossing& other : at_[at.port])
       if (other.stream < s && follows({s, h}, other)) start = std::max(start, window(other).start + hop(other).transmission + problem_->ports[at.port].gap);
+    if (is_gated && !at.previous)   // copies that the talker sends by one port
+      for (std::uint32_t copy = 0; copy < h; ++copy)
+        if (!each.hops[copy].previous && each.hops[copy].port == at.port) start = std::max(start, windows_[s][copy].start + each.hops[copy].transmission + problem_->ports[at.port].gap);
     const Duration early = at.previous ? problem_->margin : Duration();
     windows_[s].push_back({start, floor_ns(start - early), ceil_ns(start + at.transmission + problem_->margin)});
   }

@@ -43,6 +43,9 @@ class Crossings {
   sim::Duration free_again(Crossing c) const;
   /// The later of two of one train came to the port behind the earlier, by the same port before: they stay in order, whatever the clocks say.
   bool follows(Crossing later, Crossing earlier) const;
+  /// Of one frame: a copy that leaves the talker by the same port behind the other one, or the other way on which it may come from a merge, of which it takes one. `later` begins later.
+  /// Copies that come to one port by two ways are as apart as any two frames.
+  bool is_same_frame(Crossing later, Crossing earlier) const;
   /// At their talker, in one queue behind gates: the first to come would stand in the window of the other. `common` divides both periods, ps.
   bool come_in_any_order(Crossing a, Crossing b, std::int64_t common) const;
   /// Whether that can be with other releases: they share a queue at a talker whose gates hold them, and one of them may be early.

@@ -8,6 +8,7 @@
 #include "scenario/resolve/gate_limits.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "scenario/resolve/port_configs.hpp"
+#include "scenario/resolve/redundancy.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
 
 namespace takt::scenario {
@@ -83,15 +84,33 @@ class Extraction {
     made.release = timing.release;
     made.early = timing.early;
     made.train = timing.train;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;   // hops, by both nodes
-    for (const Path& path : stream.paths)
+    const auto redundancy = std::ranges::find(r_.redundancies, stream.index, &ResolvedRedundancy::stream);
+    const bool is_redundant = redundancy != r_.redundancies.end();
+    if (is_redundant && redundancy->is_ladder()) return refuse(stream, "ways of a ladder, on which a frame may come at many times");
+    std::map<std::vector<std::uint32_t>, std::uint32_t> known;   // hops, by the way to them: nodes, and which copy goes on from each
+    for (std::size_t p = 0; p < stream.paths.size(); ++p) {
+      const Path& path = stream.paths[p];
+      const std::vector<OnHop> on = is_redundant ? on_hops(r_, *redundancy, p) : std::vector<OnHop>(path.size() - 1);
+      std::vector<std::uint32_t> way;
+      std::optional<std::uint32_t> previous;
+      bool is_copy = false;   // somewhere before
       for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-        if (!known.emplace(std::pair(path[i], path[i + 1]), static_cast<std::uint32_t>(made.hops.size())).second) continue;
-        const std::optional<std::uint32_t> previous = i == 0 ? std::nullopt : std::optional(known.at({path[i - 1], path[i]}));
-        const std::string problem = check_node(path[i]);
-        if (!problem.empty()) return refuse(stream, problem);
-        if (!add_hop(stream, made, path[i], path[i + 1], previous)) return;
+        way.push_back(path[i]);
+        way.push_back(on[i].member ? static_cast<std::uint32_t>(*on[i].member) + 1 : 0);
+        const bool is_merged = is_copy && !on[i].member;
+        is_copy = is_copy || on[i].member.has_value();
+        way.push_back(path[i + 1]);
+        const auto [hop, is_new] = known.emplace(way, static_cast<std::uint32_t>(made.hops.size()));
+        way.pop_back();
+        if (is_new) {
+          const std::string problem = check_node(path[i]);
+          if (!problem.empty()) return refuse(stream, problem);
+          if (!add_hop(stream, made, path[i], path[i + 1], previous, on[i].r_tagged)) return;
+          made.hops.back().is_merged = is_merged;
+        }
+        previous = hop->second;
       }
+    }
     scheduled_.insert(stream.index.value);
     problem_.streams.push_back(std::move(made));
     streams_.push_back(stream.index);
@@ -104,7 +123,7 @@ class Extraction {
     return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose \"ingress\" may change classes and times";
   }
 
-  bool add_hop(const ResolvedStream& stream, ScheduledStream& made, std::uint32_t from, std::uint32_t to, std::optional<std::uint32_t> previous) {
+  bool add_hop(const ResolvedStream& stream, ScheduledStream& made, std::uint32_t from, std::uint32_t to, std::optional<std::uint32_t> previous, bool r_tagged) {
     const End at = end_towards(from, to);
     const models::PortConfig& config = config_of(*at.end);
     const models::TrafficClass q = class_of(stream, config);
@@ -118,7 +137,7 @@ class Extraction {
     if (plan.host_priority) problem = "a priority that its frames have at " + port + " and not behind it";
     if (!problem.empty()) return refuse(stream, problem), false;
     const bool tagged = plan.priority.has_value() && !strips_tags(r_.topology, config, from, !previous);
-    const Octets frame = models::frame_length(plan.headers + stream.largest_payload, tagged);
+    const Octets frame = models::frame_length(plan.headers + stream.largest_payload, tagged, r_tagged);
     const Duration octet = at.link->rate.octet_time();
     ScheduledHop hop;
     hop.port = port_index(from, to, at, octet);

@@ -72,11 +72,12 @@ class Layout {
     }
     const std::int64_t length_a = (free_again(a) - earliest(a)).ps();
     const std::int64_t length_b = (free_again(b) - earliest(b)).ps();
-    if (a.stream == b.stream) {
+    if (a.stream == b.stream && a.hop == b.hop) {
       if (length_a > common) overlap(p, a, b, common);
       return;
     }
-    if (crossings_.follows(b, a)) {
+    if (crossings_.is_same_frame(a, b)) std::swap(a, b);
+    if (crossings_.follows(b, a) || crossings_.is_same_frame(b, a)) {
       // They may overlap by their margins; only the next of a must come after this one of b.
       if (free_again(b) > earliest(a) + stream(a).period) overlap(p, b, a, (earliest(a) + stream(a).period - earliest(b)).ps());
       return;

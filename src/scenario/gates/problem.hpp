@@ -44,7 +44,8 @@ struct ScheduledHop {
   models::TrafficClass traffic_class = 0;
   sim::Duration transmission;               ///< preamble to FCS
   sim::Duration behind;                     ///< last bit sent to ready at the next port: propagation and forwarding delay
-  sim::Duration wait{};                     ///< behind another copy of the same frame; not of streams with windows, which have one
+  sim::Duration wait{};                     ///< behind another copy of the same frame; of streams with windows those at their talker tell it
+  bool is_merged = false;                   ///< behind a merge of copies: of the hops of its stream at this port each frame takes one
   bool operator==(const ScheduledHop&) const = default;
 };
 
@@ -54,7 +55,7 @@ struct ScheduledStream {
   sim::Duration period;                     ///< a whole number of ns
   sim::Duration release;                    ///< by when the first frame is surely at the talker's port
   std::uint32_t train = 0;                  ///< streams of one train are handed to the port in their order, at one instant
-  std::vector<ScheduledHop> hops;           ///< the tree from the talker to all listeners
+  std::vector<ScheduledHop> hops;           ///< the tree from the talker to all listeners; of a redundant stream with all ways, each of them to its end
   sim::Duration early{};                    ///< how long before its release, at most, a frame may be at the talker's port
   bool operator==(const ScheduledStream&) const = default;
 };

@@ -71,8 +71,7 @@ class TimingWalk {
         }
         if (stream.offset && stream.offset->is_auto) timing.choice = choice_of({i});
       }
-      if (stream.redundancy) timing.no_window = "\"redundancy\", whose members go several ways";
-      else if (!stream.every) timing.no_window = "no period: \"every\" is missing";
+      if (!stream.every) timing.no_window = "no period: \"every\" is missing";
       else if (!promises_phase(stream)) timing.no_window = "no \"offset\" that promises when it is sent, or \"auto\"";
       else if (stream.launch) timing.no_window = "\"launch\", which is a plan of its own";
       else if (std::ranges::find(r_.plan.talker_ats, index, &models::TalkerAtsPlan::stream) != r_.plan.talker_ats.end()) timing.no_window = "an ATS scheduler at its talker, which may hold it";

@@ -121,7 +121,7 @@ class GateResolver {
         return;
       case GateConflict::Kind::overlap:
         diagnostics_.error(group.place, "windows that overlap",
-                           {std::move(found), group.meets_itself ? "a period that is longer than the window" : "\"offset\": \"auto\", or offsets or \"phases\" that keep them apart"});
+                           {std::move(found), group.meets_itself ? "a period that is longer than the window; of copies that come by several ways, paths that take longer by more than a window" : "\"offset\": \"auto\", or offsets or \"phases\" that keep them apart"});
     }
   }
 

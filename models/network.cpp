@@ -125,6 +125,7 @@ void Network::step_clock(NodeIndex node, sim::Duration by) { clocks_[node.value]
 void Network::set_frequency_offset(NodeIndex node, sim::FrequencyOffset offset) { clocks_[node.value]->set_frequency_offset(*simulation_, offset); }
 
 void Network::add_streams() {
+  traffic_.expect_streams(plan_.streams.size() + 1);   // gPTP has one
   for (const StreamPlan& stream : plan_.streams) {
     Stream record;
     record.name = stream.name;

@@ -106,6 +106,8 @@ struct alignas(64) Stream {
 
 class Traffic {
  public:
+  /// So many streams will be added: their accounts take no more room than they need.
+  void expect_streams(std::size_t count) { streams_.reserve(count); }
   StreamIndex add_stream(Stream stream);
   Stream& stream(StreamIndex index) { return streams_[index.value]; }
   const Stream& stream(StreamIndex index) const { return streams_[index.value]; }

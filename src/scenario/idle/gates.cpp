@@ -101,7 +101,7 @@ void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
   const Resolved& r = usage.resolved();
   std::map<std::string, std::pair<const Queues::PerClass*, Ports>> limits;   // by place: generated nodes share theirs
   for (std::uint32_t n = 0; n < r.topology.nodes.size(); ++n) {
-    const Queues& queues = std::visit([](const auto& node) -> const Queues& { return node.queues; }, r.topology.nodes[n].description);
+    const Queues& queues = std::visit([](const auto& node) -> const Queues& { return node.queues; }, r.topology.nodes[n].description.get());
     tell_idle_drops(queues, diagnostics);
     for (const Queues::PerClass& one : queues.classes) {
       auto& [limit, ports] = limits[one.where.place().pointer];

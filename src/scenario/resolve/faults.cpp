@@ -161,7 +161,7 @@ class FaultResolver {
     }
     made_.actions.push_back({begin, ResolvedNode{index, false}});
     outages_.push_back({begin, links, false});
-    const auto* const station = std::get_if<StationNode>(&r_.topology.nodes[*node].description);
+    const auto* const station = std::get_if<StationNode>(&r_.topology.nodes[*node].description.get());
     std::optional<sim::TrueTime> end = end_of(fault);
     if (station != nullptr && station->bypass) end = bypass(*station, index, begin, end);
     if (end) {

@@ -46,6 +46,7 @@ class Resolver {
   Resolver(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
 
   void run() {
+    r_.scenario.streams.shrink_to_fit();   // before anybody points into them
     r_.topology = build_topology(r_.scenario.network, diagnostics_);
     plan_nodes();
     r_.plan.links = r_.topology.links;
@@ -81,9 +82,21 @@ class Resolver {
     r_.requirements = requirements_of(r_, diagnostics_);
     if (!diagnostics_.has_errors()) tell_idle(r_, diagnostics_);
     builder_ = nullptr;
+    give_back_room();
   }
 
  private:
+  /// What of a large plant is kept for long, and grew: up to half of it is room for more.
+  void give_back_room() {
+    r_.plan.nodes.shrink_to_fit();
+    r_.plan.links.shrink_to_fit();
+    r_.plan.streams.shrink_to_fit();
+    r_.plan.talkers.shrink_to_fit();
+    r_.plan.filtering.shrink_to_fit();
+    r_.streams.shrink_to_fit();
+    r_.ports.shrink_to_fit();
+  }
+
   /// Of an entry that is no object nothing is known.
   template <class Entry>
   bool is_read(const Entry& entry) const {

@@ -68,7 +68,7 @@ class Builder {
     Duration delay;
   };
 
-  std::optional<std::uint32_t> add(std::string name, Node description, json::Source where, const json::Place& place) {
+  std::optional<std::uint32_t> add(std::string name, SharedNode description, json::Source where, const json::Place& place) {
     const auto next = static_cast<std::uint32_t>(topology_.nodes.size());
     if (!topology_.index.emplace(name, next).second) {
       diagnostics_.error(place, "duplicate node name", {json::quote(name) + " a second time", "a name of its own for each node"});
@@ -98,8 +98,12 @@ class Builder {
     const Generated made = generate(generator, most_nodes - std::min<std::uint64_t>(most_nodes, topology_.nodes.size()), diagnostics_);
     std::vector<std::optional<std::uint32_t>> indices;
     indices.reserve(made.nodes.size());
+    topology_.nodes.reserve(topology_.nodes.size() + made.nodes.size());
+    std::map<models::NodeKind, SharedNode> of_kind;
     for (const Generated::Node& node : made.nodes) {
-      indices.push_back(add(node.name, node_of(node.kind, generator), generator.where, generator.where.place()));
+      auto description = of_kind.find(node.kind);
+      if (description == of_kind.end()) description = of_kind.emplace(node.kind, node_of(node.kind, generator)).first;
+      indices.push_back(add(node.name, description->second, generator.where, generator.where.place()));
     }
     const Duration delay = Duration::from_ps(generator.length.millimetres * ps_per_millimetre);
     for (const Generated::Link& link : made.links) {

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "models/plan.hpp"
@@ -13,9 +15,20 @@
 
 namespace takt::scenario {
 
+/// What the file says of a node; all nodes of a generator that are of one kind share it, since it is large and they are many.
+class SharedNode {
+ public:
+  SharedNode(Node node) : node_(std::make_shared<const Node>(std::move(node))) {}   // NOLINT: as good as the node
+  const Node& get() const { return *node_; }
+  operator const Node&() const { return *node_; }   // NOLINT: the same
+
+ private:
+  std::shared_ptr<const Node> node_;
+};
+
 struct TopologyNode {
   std::string name;
-  Node description;
+  SharedNode description;
   json::Source where;
   bool is_end_station() const { return end_station_of(description) != nullptr; }
   bool forwards() const { return relay_of(description) != nullptr; }

@@ -178,12 +178,12 @@ void EventQueue::spread() {
   free_ = none;
   waiting_ = in_buckets_ = 0;
 
-  // The nearer half of the events says how densely they lie; far time-outs must not widen the buckets.
+  // The nearest events say how densely they lie: far time-outs, and what comes a cycle later, must not widen the buckets.
   std::sort(all.begin(), all.end());
-  const std::size_t half = all.size() / 2;
+  const std::size_t near = all.size() / 8;
   const std::int64_t start = all.front().time.ps();
-  const std::int64_t spacing = (all[half].time.ps() - start) / static_cast<std::int64_t>(half + 1);
-  width_log2_ = std::min(40, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::max<std::int64_t>(1, 8 * spacing)))));
+  const std::int64_t spacing = (all[near].time.ps() - start) / static_cast<std::int64_t>(near + 1);
+  width_log2_ = std::clamp(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(2 * spacing))), narrowest_log2, widest_log2);
   near_end_ = buckets_after(TrueTime::from_ps(start >> width_log2_ << width_log2_), 1);
   horizon_ = buckets_after(near_end_, buckets_.size() - 1);
   const auto far = std::find_if(all.begin(), all.end(), [this](const Event& event) { return event.time >= near_end_; });

@@ -197,6 +197,12 @@ class EventQueue {
     return near_.first_time();
   }
 
+  /// Whether no event is due by then. Unlike first_time() it stays where it is: whoever asks may still push what comes before all that waits.
+  bool has_none_until(TrueTime now) {
+    if (const Event* const event = near_.first()) [[likely]] return event->time > now;
+    return waiting_ == 0 || now < near_end_ || first_time() > now;
+  }
+
   /// Removes and returns the first event. Precondition: first_time() has just been asked and was not never.
   Event pop() { return near_.pop(); }
 
@@ -221,6 +227,10 @@ class EventQueue {
   };
   static constexpr std::uint32_t none = 0xFFFF'FFFF;
   static constexpr std::size_t near_only_limit = 64;
+  /// Widths of buckets, as powers of two ps. What many components do at one instant says nothing of how densely events lie; 66 ns are less than a short frame takes, so that
+  /// a bucket gets hardly anything while it is worked on, and enough that all buckets together reach beyond a cycle.
+  static constexpr int narrowest_log2 = 16;
+  static constexpr int widest_log2 = 40;
   static_assert(near_only_limit >= NearEvents::most_sorted, "a near part that is a sorted array is never crowded");
 
   /// The way of what does not fit into the sorted array. It takes words, since a reference would keep every event in memory.

@@ -76,11 +76,11 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
   Event event;
   try {
     for (;;) {
-      const TrueTime next = queue_.first_time();
-      if (!settling_.empty() && next > now_) {
+      if (!settling_.empty() && queue_.has_none_until(now_)) {
         settle_all();
         continue;
       }
+      const TrueTime next = queue_.first_time();
       if (next > last) break;
       if (events_ >= pause_at) [[unlikely]] {
         if (events_ >= stop_at && next > now_) return false;

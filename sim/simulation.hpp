@@ -89,7 +89,7 @@ class Simulation {
 
   /// True if nothing else happens at the present instant: no event is pending for it and nobody waits to settle. A handler
   /// may then do as its last act what it would otherwise leave to settle().
-  bool instant_is_complete() { return settling_.empty() && queue_.first_time() > now_; }
+  bool instant_is_complete() { return settling_.empty() && queue_.has_none_until(now_); }
   /// The same as far as it is known without work: false also where instant_is_complete() must be asked.
   bool instant_is_surely_complete() const {
     const Event* const next = queue_.upcoming(0);

@@ -16,7 +16,7 @@ bool depends_on_its_times(const Scenario& scenario) {
   if (clocks.gptp || clocks.all || !clocks.nodes.empty() || !scenario.faults.empty() || scenario.rerouting) return true;
   if (std::any_of(scenario.require.begin(), scenario.require.end(), [&](const scenario::Requirement& each) { return each.after.value_or(scenario.warm_up) > Duration(); })) return true;
   if (std::any_of(scenario.script.begin(), scenario.script.end(), [](const scenario::ScriptEntry& entry) { return !entry.call; })) return true;
-  return std::any_of(scenario.streams.begin(), scenario.streams.end(), [](const scenario::Stream& stream) { return stream.trace.has_value(); });
+  return std::any_of(scenario.streams.begin(), scenario.streams.end(), [](const scenario::Stream& stream) { return stream.trace.has_value() || stream.until.has_value(); });
 }
 
 /// What may be left out of a pause: whole periods, so that what comes after it keeps its phase.

@@ -30,6 +30,18 @@ RunResult run(const std::string& text, std::uint64_t events = ~0ULL) {
 /// The first requirement of the run.
 RequirementResult judged(const std::string& text, std::uint64_t events = ~0ULL) { return run(text, events).requirements.at(0); }
 
+// Of 0 to 10 ms those that are due before 3 ms.
+TEST(Requirements, AStreamEnds) {
+  std::string text = frames(R"({"stream": "s", "delivered": 3})");
+  text.insert(text.find(R"("every": "1ms")"), R"("until": "3ms", )");
+  const RunResult ended = run(text);
+  EXPECT_EQ(ended.streams.at(0).sent, 3u);
+  EXPECT_EQ(ended.streams.at(0).delivered, 3u);
+  EXPECT_EQ(ended.verdict, Verdict::pass);
+  text.replace(text.find(R"("until": "3ms")"), 14, R"("until": "3000000001ps")");
+  EXPECT_EQ(run(text).streams.at(0).sent, 4u);
+}
+
 TEST(Requirements, Latency) {
   const RequirementResult exact = judged(frames(R"({"stream": "s", "latency": "2564ns"})"));
   EXPECT_EQ(exact.verdict, Verdict::pass);

@@ -105,6 +105,7 @@ std::span<const Rule> traffic_rules() {
       {.key = "stream.burst", .percent = 20},
       {.key = "stream.trace", .feature = Feature::traces, .percent = 50, .words = "bursts.csv steady.csv"},
       {.key = "stream.offset", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return m.word(s.has("every") ? "0us 1us 10us 37us 100us auto auto" : "0us 1us 10us 37us 100us"); }},
+      {.key = "stream.until", .percent = 8, .words = "3ms 20ms"},
       {.key = "stream.jitter", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("every") && !(m.wants(Feature::automatic_gates) && s.text("pcp") == "6") ? Made(m.word("10us 100us")) : std::nullopt; }},
       {.key = "stream.launch", .feature = Feature::launch, .percent = 50, .words = "0ns 10us 100us"},
       {.key = "stream.path", .feature = Feature::explicit_path, .percent = 50, .make = path},

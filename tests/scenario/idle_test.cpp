@@ -141,6 +141,8 @@ const IdleCase cases[] = {
      "/network/nodes/sw1/ingress/cqf: cyclic queuing without frames: no stream that crosses \"sw1\" meets it | streams with its priorities\n"},
     {"StreamAfterTheEnd", plain("", R"({"name": "late", "from": "a", "to": "b", "payload": "40B", "every": "1ms", "offset": "10ms"})"),
      "/streams/0/offset: a stream that begins after the end of the simulation: 10ms | less than 10ms\n"},
+    {"StreamThatEndsAfterTheEnd", plain("", R"({"name": "long", "from": "a", "to": "b", "payload": "40B", "every": "1ms", "until": "10ms"})"),
+     "/streams/0/until: a stream that ends after the end of the simulation: 10ms | less than 10ms\n"},
     {"FaultsInVain",
      plain(R"(, "faults": [{"kind": "link-down", "link": ["a", "sw1"], "at": "1ms", "for": "3ms"}, {"kind": "link-down", "link": ["sw1", "a"], "at": "2ms", "for": "1ms"},
 {"kind": "link-down", "link": ["a", "sw1"], "at": "1ms", "for": "3ms"}, {"kind": "frame-errors", "link": ["sw1", "sw2"], "loss": 0}, {"kind": "frame-errors", "link": ["sw1", "sw2"], "towards": "sw1", "loss": 0.5},

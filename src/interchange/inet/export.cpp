@@ -104,6 +104,7 @@ class InetWriter {
     if (stream.normal || stream.trace) return lose(where, "times of a trace or a normal distribution");
     if (stream.jitter > Duration()) lose(where, "jitter of its production");
     if (stream.launch) lose(where, "launch times");
+    if (stream.until) lose(where, "its end");
     if (std::ranges::any_of(r_.plan.talker_ats, [&](const models::TalkerAtsPlan& shaped) { return r_.plan.streams[shaped.stream.value].name == stream.name; })) lose(where, "its ATS scheduler at the talker");
     if (stream.host_priority) lose(where, "a priority in the host that is not on the wire");
     if (stream.path) lose(where, "its path: INET takes the shortest");

@@ -130,6 +130,7 @@ class ProblemWriter {
     if (from.burst && from.burst->spacing > sim::Duration()) exported_.lose(where, "the distance between the frames of a burst");
     if (from.jitter > sim::Duration()) exported_.lose(where, "jitter of its talker");
     if (from.launch) exported_.lose(where, "launch times");
+    if (from.until) exported_.lose(where, "its end");
     if (from.redundancy) return exported_.lose(where, "redundancy");
     if (from.host_priority) exported_.lose(where, "a priority at its talker alone");
     if (from.to.names.size() != plan.listeners.size()) exported_.lose(where, "a listener that is named twice");

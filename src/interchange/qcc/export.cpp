@@ -74,6 +74,7 @@ class RequestWriter {
     const Duration every = stream.burst ? stream.burst->every : stream.every.value_or(Duration::from_ps(1'000'000));
     if (stream.burst && stream.burst->spacing > Duration()) exported_.lose(where, "the distance between the frames of a burst");
     if (stream.launch) exported_.lose(where, "launch times");
+    if (stream.until) exported_.lose(where, "its end");
     if (std::ranges::find(r_.plan.talker_ats, resolved.index, &models::TalkerAtsPlan::stream) != r_.plan.talker_ats.end()) exported_.lose(where, "its ATS scheduler at the talker");
     const std::uint64_t numerator_ns = std::max<std::uint64_t>(whole_ns(every, where, "an interval"), 1);
     const std::uint64_t numerator = numerator_ns, denominator = 1'000'000'000;

@@ -322,6 +322,7 @@ struct Stream {
   std::optional<Bursts> burst;
   std::optional<std::string> trace;
   std::optional<json::OrAuto<Duration>> offset;  ///< 0 in a run; absent, it is nothing that the plant promises
+  std::optional<Duration> until = {};    ///< no frame is due from then on
   Duration jitter;
   std::optional<Duration> launch;
   std::optional<std::vector<std::string>> path;

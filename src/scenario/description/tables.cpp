@@ -112,6 +112,7 @@ const json::Object& describe(json::Type<Stream>) {
       optional<&Stream::burst>("burst", "Bursts of frames."),
       optional<&Stream::trace>("trace", "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
       optional<&Stream::offset>("offset", "When the first period begins; 0 in a run if absent, and then any for the search for the worst case. \"auto\": takt chooses one at which its frames meet no others.", {.max = longest_step}),
+      optional<&Stream::until>("until", "When the stream ends: only frames that are due before are produced, by the clock of the sender.", {.min = 1_ns, .max = longest_step}),
       optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.", {.max = longest_step}),
       optional<&Stream::launch>("launch", "Launch time of each frame, this long after it was due: the network interface sends it then, or drops it if it comes later.",
                                 {.max = longest_step}),

@@ -224,7 +224,12 @@ class Resolver {
     if (!index) return;
     if (!stream.pcp) r_.plan.streams[index->value].host_priority = stream.host_priority;
     r_.streams[index->value].demand = demand_of(schedule, stream, *index);
-    r_.plan.talkers.push_back({*index, stream.payload, std::move(schedule), stream.launch});
+    models::TalkerPlan talker{*index, stream.payload, std::move(schedule), stream.launch};
+    if (stream.until) talker.until = sim::LocalTime() + *stream.until;
+    if (stream.until && stream.offset && !stream.offset->is_auto && *stream.until <= stream.offset->value)
+      diagnostics_.error_unless(diagnostics_.is_refused(stream.where.at("offset")) || diagnostics_.is_refused(stream.where.at("until")), stream.where.at("until"), "a stream that ends before it begins",
+                                {json::to_text(*stream.until), "more than its \"offset\" of " + json::to_text(stream.offset->value)});
+    r_.plan.talkers.push_back(std::move(talker));
   }
 
   models::TalkerSchedule schedule_of(const Stream& stream) {

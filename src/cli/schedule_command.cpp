@@ -13,6 +13,7 @@
 #include "cli/commands.hpp"
 #include "cli/places.hpp"
 #include "cli/schedule_change.hpp"
+#include "cli/schedule_scenario_change.hpp"
 #include "cli/terminal.hpp"
 #include "interchange/schedules/instances.hpp"
 #include "interchange/schedules/report.hpp"
@@ -46,6 +47,7 @@ struct ScheduleOptions {
   std::string format = "text";
   std::optional<std::string> to;
   ChangeOptions change;
+  ScenarioChangeOptions scenario_change;
 };
 
 /// Two kinds of mistakes: told as text, or as JSON where the output is JSON.
@@ -149,6 +151,34 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit
   return answer->verdict == Decision::Verdict::scheduled ? ExitStatus::pass : ExitStatus::undecided;
 }
 
+bool is_scenario(const ScheduleOptions& options) { return options.files.size() == 1 && !interchange::schedules::is_instance(options.files.front()); }
+
+/// A scheduled scenario, and perhaps what it was made of.
+ExitStatus change_scenario(const ScheduleOptions& options) {
+  ScenarioChangeOptions change = options.scenario_change;
+  change.running = *options.to;
+  if (!options.files.empty()) change.wanted = options.files.front();
+  change.add = options.change.add;
+  change.remove = options.change.remove;
+  change.fail = options.change.fail;
+  change.plant = options.change.plant;
+  change.out = options.out;
+  change.entries = options.entries;
+  change.is_json = options.format == "json";
+  return change_scheduled_scenario(change);
+}
+
+/// Options that mean nothing where they stand.
+void check_change(const ScheduleOptions& options, json::Diagnostics& diagnostics) {
+  const json::Place place{"command line", 0, 0, ""};
+  if (options.files.empty() && !options.to) diagnostics.error(place, "nothing to schedule", {"no file", "SCENARIO, INSTANCE, or --to SCHEDULE with what changes"});
+  if (!options.to && (options.change.add || options.change.plant || !options.change.remove.empty() || !options.change.fail.empty()))
+    diagnostics.error(place, "a change without a schedule", {"--add, --remove, --fail or --plant", "--to SCHEDULE as well"});
+  const bool is_of_scenario = options.to && (options.files.empty() || is_scenario(options));
+  if (!is_of_scenario && (options.scenario_change.transition || options.scenario_change.at || options.scenario_change.lead))
+    diagnostics.error(place, "a transition of what is no scenario", {"--transition, --at or --lead", "--to SCENARIO, a scheduled one: of an instance no transition is planned"});
+}
+
 /// Of several instances the worst counts: undecided, then infeasible, then scheduled.
 ExitStatus worse(ExitStatus a, ExitStatus b) {
   const auto rank = [](ExitStatus s) { return s == ExitStatus::pass ? 0 : s == ExitStatus::requirement_failed ? 1 : s == ExitStatus::undecided ? 2 : 3; };
@@ -163,14 +193,13 @@ ExitStatus run(const ScheduleOptions& options) {
     return report_mistakes(diagnostics, options);
   }
   // A folder ("DIR/") has a file for each instance.
-  const std::string out = options.out.value_or(""), certificate = options.certificate.value_or(""), plant = options.change.plant.value_or("");
-  if (!can_write({{"--out", out, Place::Kind::either}, {"--certificate", certificate, Place::Kind::either}, {"--plant", plant, Place::Kind::file}}, options.format == "json"))
+  const std::string out = options.out.value_or(""), certificate = options.certificate.value_or(""), plant = options.change.plant.value_or(""), transition = options.scenario_change.transition.value_or("");
+  if (!can_write({{"--out", out, Place::Kind::either}, {"--certificate", certificate, Place::Kind::either}, {"--plant", plant, Place::Kind::file}, {"--transition", transition, Place::Kind::file}}, options.format == "json"))
     return ExitStatus::bad_input;
-  if (options.files.size() == 1 && !interchange::schedules::is_instance(options.files.front())) return schedule_scenario(options, *limit);
-  if (!options.to && (options.change.add || options.change.plant || !options.change.remove.empty() || !options.change.fail.empty())) {
-    diagnostics.error({"command line", 0, 0, ""}, "a change without a schedule", {"--add, --remove, --fail or --plant", "--to SCHEDULE as well"});
-    return report_mistakes(diagnostics, options);
-  }
+  check_change(options, diagnostics);
+  if (diagnostics.has_errors()) return report_mistakes(diagnostics, options);
+  if (options.to && (options.files.empty() || is_scenario(options))) return change_scenario(options);
+  if (is_scenario(options)) return schedule_scenario(options, *limit);
   interchange::schedules::InstanceReader reader(options.files);
   ExitStatus status = ExitStatus::pass;
   json::Node reports = json::Node::array();
@@ -206,7 +235,7 @@ ExitStatus run(const ScheduleOptions& options) {
 void add_schedule_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("schedule", "Find routes, phases and gate lists, or say why there are none");
   const auto options = std::make_shared<ScheduleOptions>();
-  command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25, GraphML with applications or neutral, told by their content; network and streams one after the other where they are two files").required();
+  command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25, GraphML with applications or neutral, told by their content; network and streams one after the other where they are two files. With --to a scenario need not be given");
   command.add_option("--routes", options->routes, "given: streams without a route are refused; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");
   command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: of an instance the best of twelve attempts; slack: the greatest clock error (feasible)")
       .one_of({"feasible", "latency", "entries", "slack"})
@@ -218,11 +247,14 @@ void add_schedule_command(Command app, ExitStatus& status) {
   command.add_option("--entries", options->entries, "Entries that a list may have, where the port takes more").type_name("N");
   command.add_option("--out", options->out, "Where the schedule goes: of a scenario a scenario, of an instance neutral JSON; DIR/ for one file an instance").type_name("FILE");
   command.add_option("--certificate", options->certificate, "Where a proof of infeasibility goes; DIR/ for one file an instance").type_name("FILE");
-  command.add_option("--to", options->to, "A schedule of the instance (as --out writes it) that runs and is changed; nobody moves who need not").type_name("SCHEDULE");
-  command.add_option("--add", options->change.add, "Streams that come: {\"streams\": [...]} as in a neutral instance").type_name("FILE");
+  command.add_option("--to", options->to, "A schedule of the instance or scenario (as --out writes it) that runs and is changed; nobody moves who need not").type_name("SCHEDULE");
+  command.add_option("--add", options->change.add, "Streams that come: {\"streams\": [...]} as in a neutral instance, or as in a scenario").type_name("FILE");
   command.add_option("--remove", options->change.remove, "A stream that goes (repeatable)").type_name("STREAM").one_value_each();
-  command.add_option("--fail", options->change.fail, "A link that is gone: its streams take other ways (repeatable)").type_name("LINK").one_value_each();
-  command.add_option("--plant", options->change.plant, "Where the instance goes as it is after the change").type_name("FILE");
+  command.add_option("--fail", options->change.fail, "A link that is gone, of a scenario the cable or a node: its streams take other ways (repeatable)").type_name("LINK").one_value_each();
+  command.add_option("--plant", options->change.plant, "Where the instance goes as it is after the change, or the scenario with automatic gates").type_name("FILE");
+  command.add_option("--transition", options->scenario_change.transition, "Of a scenario: where the way from one schedule to the next goes, as a scenario that can be run").type_name("FILE");
+  command.add_option("--at", options->scenario_change.at, "Of a scenario: when the change begins (as soon as all streams have sent for two periods)").type_name("D");
+  command.add_option("--lead", options->scenario_change.lead, "Of a scenario: how long before it holds a list is written, at least (10ms)").type_name("D");
   command.add_option("--format", options->format, "text, json or neutral (the schedule or the certificate)").one_of({"text", "json", "neutral"}).type_name("FORMAT");
   command.footer(
       "Examples:\n"
@@ -232,6 +264,8 @@ void add_schedule_command(Command app, ExitStatus& status) {
       "  takt schedule task.csv topo.csv --gates --entries 16     with lists that a small switch takes\n"
       "  takt schedule plant.json --to schedule.json --add new.json --out changed.json\n"
       "                                                           a stream more, the others stay\n"
+      "  takt schedule --to scheduled.json --add stream.json --out changed.json --transition transition.json\n"
+      "                                                           a scenario: the way from list to list, too, simulated\n"
       "  takt schedule cell.json --objective slack                how far clocks may differ\n"
       "Exit status: 0 scheduled, 1 infeasible (proved), 4 undecided (or no lists), 2 mistakes (all of them are listed), 3 internal error.");
   command.callback([options, &status] { status = run(*options); });

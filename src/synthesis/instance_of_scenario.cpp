@@ -13,7 +13,7 @@ using schedule::LinkIndex;
 using schedule::Problem;
 using schedule::Ps;
 
-std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const scenario::Scenario& wanted, json::Diagnostics& diagnostics, std::string& why_not) {
+std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const scenario::Scenario& wanted, json::Diagnostics& diagnostics, std::string& why_not, bool allows_early) {
   // The problem of gates is what these streams need; with the gates that are asked for, but not yet laid.
   resolved.scenario.gates = wanted.gates;
   const auto gated = scenario::gate_problem_of(resolved, scenario::timings_of(resolved), diagnostics);
@@ -53,7 +53,7 @@ std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const 
       why_not = gate.name + " is redundant, and its copies go several ways";
       return std::nullopt;
     }
-    if (of_train[gate.train] > 1 || gate.early > scenario::Duration()) {
+    if (of_train[gate.train] > 1 || (gate.early > scenario::Duration() && !allows_early)) {
       why_not = gate.name + (of_train[gate.train] > 1 ? " is one of several that leave at one instant" : " is at its talker's port at no exact time");
       return std::nullopt;
     }

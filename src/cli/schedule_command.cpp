@@ -252,7 +252,7 @@ void add_schedule_command(Command app, ExitStatus& status) {
   command.add_option("--remove", options->change.remove, "A stream that goes (repeatable)").type_name("STREAM").one_value_each();
   command.add_option("--fail", options->change.fail, "A link that is gone, of a scenario the cable or a node: its streams take other ways (repeatable)").type_name("LINK").one_value_each();
   command.add_option("--plant", options->change.plant, "Where the instance goes as it is after the change, or the scenario with automatic gates").type_name("FILE");
-  command.add_option("--transition", options->scenario_change.transition, "Of a scenario: where the way from one schedule to the next goes, as a scenario that can be run").type_name("FILE");
+  command.add_option("--transition", options->scenario_change.transition, "Where the way from one schedule of a scenario to the next goes, as a scenario that can be run").type_name("FILE");
   command.add_option("--at", options->scenario_change.at, "Of a scenario: when the change begins (as soon as all streams have sent for two periods)").type_name("D");
   command.add_option("--lead", options->scenario_change.lead, "Of a scenario: how long before it holds a list is written, at least (10ms)").type_name("D");
   command.add_option("--format", options->format, "text, json or neutral (the schedule or the certificate)").one_of({"text", "json", "neutral"}).type_name("FORMAT");

@@ -52,12 +52,22 @@ std::string text_of(const ChangedStreamRow& row) {
   return text + "\n";
 }
 
-std::string table_of(const std::vector<WrittenListRow>& lists) {
+std::string table_of(const ChangeSummary& summary) {
   std::size_t widest = 4;
-  for (const WrittenListRow& each : lists) widest = std::max(widest, each.port.size());
-  std::string text = fmt::format("  {:>4}  {:>10}  {:>10}  {:{}}  {:>8}  {}\n", "step", "written", "holds from", "port", widest, "cycle", "open classes, in turn");
-  for (const WrittenListRow& each : lists)
-    text += fmt::format("  {:>4}  {:>10}  {:>10}  {:{}}  {:>8}  {}\n", each.step, json::to_text(each.written), json::to_text(each.holds_from), each.port, widest, json::to_text(each.cycle), list_text(each.entries));
+  std::uint64_t steps = 0;
+  for (const WrittenListRow& each : summary.lists) {
+    widest = std::max(widest, each.port.size());
+    steps = std::max(steps, each.step);
+  }
+  for (const ChangedStreamRow& each : summary.changes) steps = std::max(steps, each.step.value_or(0));
+  std::string text = fmt::format("  {:>4}  {:>12}  {:>10}  {:{}}  {:>8}  {}\n", "step", "at", "holds from", "port", widest, "cycle", "open classes, in turn");
+  for (std::uint64_t step = 1; step <= steps; ++step) {
+    for (const WrittenListRow& each : summary.lists)
+      if (each.step == step)
+        text += fmt::format("  {:>4}  {:>12}  {:>10}  {:{}}  {:>8}  {}\n", step, json::to_text(each.written), json::to_text(each.holds_from), each.port, widest, json::to_text(each.cycle), list_text(each.entries));
+    for (const ChangedStreamRow& each : summary.changes)
+      if (each.step == step) text += fmt::format("  {:>4}  {:>12}  {:>10}  {} {}\n", step, json::to_text(each.first ? *each.first : each.last.value_or(Duration())), "", json::quote(each.name), each.what == "lost" ? "goes" : each.what);
+  }
   return text;
 }
 
@@ -78,7 +88,7 @@ ChangeSummary summary_of(const std::string& scenario, const ScenarioChange& chan
   made.without_way = change.without_way;
   made.would_pause = change.would_pause;
   for (const StreamChange& each : change.changes) {
-    ChangedStreamRow row{each.name, fates[static_cast<std::size_t>(each.fate)], each.was_cut, {}, {}, offset_of(each.before), offset_of(each.after), {}, {}};
+    ChangedStreamRow row{each.name, fates[static_cast<std::size_t>(each.fate)], each.was_cut, {}, {}, offset_of(each.before), offset_of(each.after), {}, {}, {}};
     if (each.before) row.path_before = each.before->path;
     if (each.after) row.path = each.after->path;
     made.changes.push_back(std::move(row));
@@ -102,6 +112,7 @@ ChangeSummary summary_of(const std::string& scenario, const ScenarioChange& chan
     }
     for (const TalkerSwitch& each : change.transition.steps[s].talkers) {
       const FlowChange& flow = change.flows.problem.changes[each.change];
+      made.changes[each.change].step = s + 1;
       if (each.last) made.changes[each.change].last = *each.last - change.flows.lags[*flow.leaves];
       if (each.first) made.changes[each.change].first = *each.first - change.flows.lags[*flow.comes];
     }
@@ -122,7 +133,7 @@ std::string text_of(const ChangeSummary& summary) {
   }
   for (const ChangedStreamRow& each : summary.changes) text += text_of(each);
   text += names_text("without windows, over what has failed, left as it is", summary.without_way);
-  if (!summary.lists.empty()) text += table_of(summary.lists);
+  if (!summary.lists.empty()) text += table_of(summary);
   return text;
 }
 
@@ -135,6 +146,7 @@ const json::Record& describe(json::Type<ChangedStreamRow>) {
       json::output<&ChangedStreamRow::path>("path", "Its path afterwards; null if it goes, or has several listeners."),
       json::output<&ChangedStreamRow::offset_before>("offset_before_ps", "Its offset before; null if it comes."),
       json::output<&ChangedStreamRow::offset>("offset_ps", "Its offset afterwards; null if it goes."),
+      json::output<&ChangedStreamRow::step>("step", "The step in which its talker changes over, from 1; of one that pauses the step in which it goes on. Null without a transition."),
       json::output<&ChangedStreamRow::last>("last_ps", "When its last frame at the old time is due; null if it comes."),
       json::output<&ChangedStreamRow::first>("first_ps", "When its first frame at the new time is due; null if it goes."),
   };
@@ -153,7 +165,7 @@ const json::Record& describe(json::Type<WrittenEntryRow>) {
 
 const json::Record& describe(json::Type<WrittenListRow>) {
   static constexpr json::Output outputs[] = {
-      json::output<&WrittenListRow::step>("step", "Lists of one step are written at one instant; between steps talkers change over."),
+      json::output<&WrittenListRow::step>("step", "From 1. Lists of one step are written at one instant; in the steps between talkers change over."),
       json::output<&WrittenListRow::port>("port", "The port, as \"sw1 to sw2\"."),
       json::output<&WrittenListRow::written>("written_ps", "When ConfigChange is set."),
       json::output<&WrittenListRow::holds_from>("holds_from_ps", "AdminBaseTime, which is ConfigChangeTime (IEEE 802.1Q 8.6.9.3.1)."),

@@ -16,6 +16,7 @@ struct ChangedStreamRow {
   bool was_cut = false;
   std::optional<std::vector<std::string>> path_before, path;
   std::optional<Duration> offset_before, offset;
+  std::optional<std::uint64_t> step;                   ///< in which its talker changes over, from 1; of one that pauses the last one
   std::optional<Duration> last, first;                 ///< when the last frame at the old time is due, and the first one at the new
 };
 

@@ -248,6 +248,55 @@ class Check(FeaturesTest):
             self.assertEqual(status, 2)
             self.assertIn("expected an instance", errors)
 
+    def test_a_scheduled_scenario_changes(self):
+        """What is written is what the command says: the plant afterwards is taken as it is, and the way there passes as a scenario of its own."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            cell = {"name": "cell", "duration": "10ms", "network": {"generate": [{"topology": "ring", "switches": 4, "forwarding_delay": "1us"}]}, "gates": {"plan": "auto", "classes": [6]},
+                    "streams": [{"name": name, "from": "h1", "to": to, "payload": "100B", "every": "500us", "offset": "auto", "pcp": 6} for name, to in (("a", "h2"), ("b", "h3"))]}
+            (folder / "cell.json").write_text(json.dumps(cell))
+            coming = {"streams": [{"name": "c", "from": "h4", "to": "h2", "payload": "400B", "every": "1ms", "offset": "auto", "pcp": 6}], "require": [{"stream": "c", "latency": "40us"}]}
+            (folder / "c.json").write_text(json.dumps(coming))
+            files = [folder / each for each in ("scheduled.json", "changed.json", "plant.json", "transition.json")]
+            self.assertEqual(takt("schedule", folder / "cell.json", "--out", files[0])[0], 0)
+            change = ("schedule", folder / "cell.json", "--to", files[0], "--add", folder / "c.json", "--remove", "b", "--fail", "sw1>sw2", "--lead", "2ms", "--at", "5ms")
+            status, said, errors = takt(*change, "--out", files[1], "--plant", files[2], "--transition", files[3], "--format", "json")
+            self.assertEqual((status, errors), (0, ""))
+            answer = json.loads(said)
+            self.assertEqual(answer["verdict"], "changed")
+            self.assertEqual({each["stream"]: each["what"] for each in answer["changes"]}, {"a": "moves", "b": "goes", "c": "comes"})
+            self.assertEqual(answer["at_ps"], 5_000_000_000)
+            for each in answer["lists"]:
+                self.assertGreaterEqual(each["holds_from_ps"] - each["written_ps"], 2_000_000_000)
+                self.assertEqual(each["holds_from_ps"] % each["cycle_ps"], 0)
+                self.assertEqual(sum(entry["for_ps"] for entry in each["entries"]), each["cycle_ps"])
+            # Its script is what the table says.
+            script = json.loads(files[3].read_text())["script"]
+            self.assertEqual([f"{each['set_gates']['node']} to {each['set_gates']['to']}" for each in script], [each["port"] for each in answer["lists"]])
+            for each in files[1], files[3]:
+                status, said, _ = takt("run", each, "--format", "json")
+                self.assertEqual(status, 0, said)
+            streams = json.loads(said)["streams"]
+            self.assertEqual([(streams[each]["lost"], streams[each]["delivered"] > 2) for each in ("a moved", "c")], [(0, True)] * 2)
+            self.assertEqual({stream["name"] for stream in json.loads(files[2].read_text())["streams"]}, {"a", "c"})
+            # The next change starts from there; the plant alone goes over what is down.
+            self.assertEqual(takt("schedule", files[2], "--to", files[1], "--remove", "c")[0], 0)
+            status, said, _ = takt("schedule", files[2])
+            self.assertEqual(status, 4)
+            self.assertIn("goes over what is down from the start on", said)
+            # Without a place it is status 4, and with mistakes 2 and nothing written.
+            self.assertEqual(takt("schedule", "--to", files[0], "--fail", "h2")[0], 4)
+            for wrong, told in ((("--remove", "x"), "no stream with windows"), (("--lead", "0s", "--remove", "a"), "not a time for a change"), (("--at", "soon", "--remove", "a"), "not a time for a change"),
+                                ((), "a change that changes nothing"), (("--remove", "a", "--plant", folder / "p.json"), "no plant that could be written"), (("--add", folder / "none.json"), "cannot be opened")):
+                status, _, errors = takt("schedule", "--to", files[0], *wrong, "--out", folder / "never.json")
+                self.assertEqual(status, 2)
+                self.assertIn(told, errors)
+            self.assertFalse((folder / "never.json").exists())
+            for wrong, told in (((), "nothing to schedule"), ((folder / "cell.json", "--add", folder / "c.json"), "a change without a schedule"), ((folder / "cell.json", "--at", "1ms"), "a transition of what is no scenario")):
+                status, _, errors = takt("schedule", *wrong)
+                self.assertEqual(status, 2)
+                self.assertIn(told, errors)
+
 
 if __name__ == "__main__":
     TAKT = os.path.abspath(sys.argv[1])

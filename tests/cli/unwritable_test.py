@@ -39,6 +39,7 @@ COMMANDS = [
     (["schedule", INSTANCE], "--out", "folder/", True),
     (["schedule", INSTANCE], "--certificate", "file", True),
     (["schedule", INSTANCE, "--to", "plant.solution.json"], "--plant", "file", True),
+    (["schedule", "--to", "auto.json", "--remove", "s"], "--transition", "file", True),
     (["export", "linux", "plant.json"], "--out", "folder", True),
     (["export", "svg", "plant.json"], "--out", "folder", True),
     (["import", "neutral", INSTANCE], "--out", "file", False),
@@ -160,7 +161,7 @@ class Unwritable(unittest.TestCase):
         def walk(command, path):
             for option in command.get("options", []):
                 names = option["name"] if isinstance(option.get("name"), str) else ",".join(option.get("names", []))
-                if re.search(r"--(out|report|certificate|plant|keep)\b", names) or (path[-2:] == ["study", "merge"] and names == "OUT"):
+                if re.search(r"--(out|report|certificate|plant|transition|keep)\b", names) or (path[-2:] == ["study", "merge"] and names == "OUT"):
                     told.add((" ".join(path), re.search(r"--\w+|OUT", names).group()))
             for sub in command.get("commands", []):
                 walk(sub, path + [sub["name"]])

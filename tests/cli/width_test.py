@@ -29,6 +29,7 @@ PAGES = (
     ("program",),
     ("--help",),
     ("run", "--help"),
+    ("schedule", "--help"),
     ("import", "--help"),
     ("export", "--help"),
     ("study", "--help"),

@@ -43,6 +43,7 @@ STREAMS = json.dumps({"x": {"sources": ["a"], "destinations": ["b"], "cycle_time
 FILES = {
     "interchange.md": {"plant.json": INSTANCE},
     "schedules.md": {"plant.json": INSTANCE, "instance.json": INSTANCE, "new.json": json.dumps({"streams": [{"name": "axis-8", "talker": "b", "listeners": ["a"], "octets": 200, "period": 1_000_000_000}]}),
+                     "stream.json": json.dumps({"streams": [{"name": "camera", "from": "h3", "to": "h5", "payload": "1000B", "every": "1ms", "offset": "auto", "pcp": 6}]}),
                      "ring.top": TOPOLOGY, "set1.pat": STREAMS, "set2.pat": STREAMS,
                      "task.csv": "stream,src,dst,size,period,deadline,jitter\n0,0,[1],200,1000000,1000000,1000000\n",
                      "topo.csv": "link,q_num,rate,t_proc,t_prop\n\"(0, 2)\",8,1,0,0\n\"(2, 0)\",8,1,0,0\n\"(1, 2)\",8,1,0,0\n\"(2, 1)\",8,1,0,0\n"},
@@ -160,6 +161,19 @@ class Pages(unittest.TestCase):
             self.assertGreaterEqual(len(outputs), 3)
             self.assertTrue(outputs[0].startswith(said), outputs[0])
             self.assertTrue(any((pathlib.Path(folder) / "lists").iterdir()))
+
+    def test_the_way_to_another_schedule(self):
+        """What the page says that the first command of its section says; and the scenario that it writes passes."""
+        page = (SOURCE / "docs" / "schedules.md").read_text(encoding="utf-8")
+        cell = re.findall(r"^```[a-z]*\n(.*?)^```", page.split("## From streams to gate lists in three commands\n")[1], re.M | re.S)[0]
+        listing, said = re.findall(r"^```[a-z]*\n(.*?)^```", page.split("### The way there\n")[1], re.M | re.S)[:2]
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "cell.json").write_text(cell, encoding="utf-8")
+            (pathlib.Path(folder) / "stream.json").write_text(FILES["schedules.md"]["stream.json"], encoding="utf-8")
+            lines = ["takt schedule cell.json --out scheduled.json", *listing.splitlines()]
+            outputs = [subprocess.run([TAKT, *shlex.split(line)[1:]], capture_output=True, text=True, check=True, timeout=300, cwd=folder).stdout for line in lines]
+            self.assertEqual(outputs[1], said)
+            self.assertIn("cell-transition: pass", outputs[-1])
 
     def test_one_spelling(self):
         for page in pages():

@@ -204,7 +204,7 @@ void Network::set_up_talker_ats() {
 
 void Network::set_up_redundancy() {
   for (const HostSplitPlan& split : plan_.host_splits)
-    output_of_host(plan_.streams[split.stream.value].talker).split(split.stream, split.split);
+    output_of_host(plan_.streams[split.stream.value].talker).split(split.stream, split.split, hosts_[plan_.streams[split.stream.value].talker.value]->id());
   for (const HostRecoveryPlan& recovery : plan_.host_recoveries) hosts_[recovery.host.value]->recover(recovery.stream, recovery.recovery);
 }
 
@@ -456,6 +456,25 @@ void Network::start() {
 
 void Network::cross(const LinkPlan::End& from, const LinkPlan::End& to) {
   if (has(from.node) && !has(to.node)) mutable_ports(from.node)[from.port].link().cross(*share_.exchange, share_.part_of(to.node));
+}
+
+std::vector<NodeIndex> Network::nodes_of_components() const {
+  std::vector<NodeIndex> nodes;
+  const auto know = [&](sim::ComponentId component, NodeIndex node) {
+    if (nodes.size() <= component.index) nodes.resize(component.index + std::size_t{1});
+    nodes[component.index] = node;
+  };
+  for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
+    const NodeIndex node{n};
+    for (const EgressPort& port : ports(node))
+      if (port.is_connected()) know(port.id(), node);
+    if (plan_.nodes[n].forwards()) know(bridges_[n]->id(), node);
+    if (hosts_[n]) know(hosts_[n]->id(), node);
+    if (stations_[n]) know(stations_[n]->id(), node);
+  }
+  for (const auto& talker : talkers_) know(talker->id(), traffic_.stream(talker->stream()).talker);
+  for (std::size_t p = 0; p < processes_.size(); ++p) know(processes_[p]->id(), host_of_process_[p]);
+  return nodes;
 }
 
 void Network::adopt(const Network& other) {

@@ -72,6 +72,12 @@ class Network final : private LinkLocalSender {
   /// `separated`. It takes time, and changes nothing.
   void tell_ways();
 
+  /// Where what trace records name as their place is, by component; none: no record names it. Of processes those that have been added.
+  std::vector<NodeIndex> nodes_of_components() const;
+  /// Whoever follows times of a node's clock is told when it changes, until it is removed. Precondition: node_clock(node) is not null.
+  void add_clock_listener(NodeIndex node, ClockListener& listener) { clocks_[node.value]->disciplined().add_listener(listener); }
+  void remove_clock_listener(NodeIndex node, ClockListener& listener) { clocks_[node.value]->disciplined().remove_listener(listener); }
+
   sim::Simulation& simulation() { return *simulation_; }
   Traffic& traffic() { return traffic_; }
   const Traffic& traffic() const { return traffic_; }

@@ -140,7 +140,7 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   Link& link = ports_[arrival.port].incoming();
   if (arrival.is_uncertain() && !link.receive(simulation, frame, arrival.flags)) return;
   if (tells_arrivals_ && simulation.trace() != nullptr)
-    simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value, arrival.port});
+    simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value, ArrivalDetail{arrival.port, link.sender()}.pack()});
   Header header;
   if ((arrival.flags & ArrivalArgument::header_only) != 0) {
     header = {link.complete_at(simulation.now(), traffic_->frame(frame)), &link};
@@ -228,7 +228,7 @@ void Bridge::hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint3
   }
   EgressPort& port = ports_[number];
   if (port.untags() && traffic_->frame(frame).tagged) {
-    frame = traffic_->own(frame);
+    frame = traffic_->own(frame, id_);
     traffic_->set_tags(frame, false, traffic_->frame(frame).r_tagged);
   }
   if (header != nullptr)

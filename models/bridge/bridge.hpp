@@ -100,7 +100,7 @@ class alignas(64) Bridge final : public sim::Component {
   /// The frame without what an earlier node has marked.
   FrameIndex unmarked(FrameIndex index, Frame& frame) {
     if (frame.references != 1) [[unlikely]] {
-      const FrameIndex own = traffic_->own(index);
+      const FrameIndex own = traffic_->own(index, id_);
       return unmarked(own, traffic_->frame(own));
     }
     frame.marked = false;

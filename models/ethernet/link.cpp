@@ -98,7 +98,7 @@ bool Link::passes_faults(sim::Simulation& simulation, FrameIndex& frame, std::ui
     return false;
   }
   if (fate.doubled) {
-    const FrameIndex twin = traffic_->duplicate(frame);
+    const FrameIndex twin = traffic_->duplicate(frame, reception_.far_end.node);
     ++other_events_;
     // The double is stored, so of a header it comes when the frame is complete.
     const sim::TrueTime complete = now + octet_time() * (std::int64_t{preamble_and_sfd.count} + length.count - octets.count);
@@ -106,7 +106,7 @@ bool Link::passes_faults(sim::Simulation& simulation, FrameIndex& frame, std::ui
                         ArrivalArgument::pack(twin, port(), static_cast<unsigned>(flags & ~ArrivalArgument::header_only) | ArrivalArgument::duplicate));
   }
   if (fate.damaged) {
-    frame = traffic_->own(frame);
+    frame = traffic_->own(frame, reception_.far_end.node);
     traffic_->frame(frame).bad_fcs = true;
   }
   return true;

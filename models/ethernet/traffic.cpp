@@ -96,7 +96,7 @@ FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets
   return handle;
 }
 
-FrameIndex Traffic::separate(FrameIndex index) {
+FrameIndex Traffic::separate(FrameIndex index, sim::ComponentId where) {
   Frame& original = frames_[index];
   TAKT_CHECK(is_under_way(original), "a frame gets a record of its own while it is under way");
   const FrameIndex made = frames_.allocate();
@@ -105,7 +105,7 @@ FrameIndex Traffic::separate(FrameIndex index) {
   if (!original.payload.is_none()) ++payloads_[original.payload].references;
   --original.references;
   if (told_ != nullptr && told_->trace() != nullptr)
-    told_->trace()->record({told_->now(), static_cast<std::uint32_t>(Occurrence::separated), {}, made.value, index.value});
+    told_->trace()->record({told_->now(), static_cast<std::uint32_t>(Occurrence::separated), where, made.value, index.value});
   return made;
 }
 

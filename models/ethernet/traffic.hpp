@@ -32,9 +32,28 @@ enum class Occurrence : std::uint32_t {
   job_done = 15,  ///< a thread of a processor has done a job; what = its response time (digest only)
   refused = 16,   ///< frames of a class wait although the medium is free; what = until when at most, as a true time, detail = Refusal (trace only)
   processing = 17,  ///< a frame waits for the processor of its host, or is on it; what = frame (trace only)
-  arrived = 18,   ///< a frame has come to a node; what = frame, detail = by which of its ports (Network::tell_ways() only)
+  arrived = 18,   ///< a frame has come to a node; what = frame, detail = ArrivalDetail (Network::tell_ways() only)
   separated = 19,  ///< a copy of a frame goes on as another record; what = that one, detail = the one before (Network::tell_ways() only)
+  gates_shown = 20,  ///< the gates of a port are so from now on; what = bit q: that of class q is open (told by who follows gates, not by the port)
+  ended = 21,     ///< no copy of a frame shares the record any more; what = that record (told by who orders records: see Moment)
 };
+
+/// Whether a trace record of that kind has a frame under way as its `what`.
+constexpr bool names_a_frame(Occurrence kind) {
+  switch (kind) {
+    case Occurrence::drop:
+    case Occurrence::produced:
+    case Occurrence::started:
+    case Occurrence::enqueued:
+    case Occurrence::dequeued:
+    case Occurrence::cut:
+    case Occurrence::resumed:
+    case Occurrence::received:
+    case Occurrence::processing:
+    case Occurrence::arrived: return true;
+    default: return false;
+  }
+}
 
 /// Why a class of a port with a free medium may not start its first frame.
 enum class Hindrance : std::uint8_t {
@@ -70,6 +89,14 @@ struct TransmissionDetail {
   static constexpr TransmissionDetail unpack(std::uint64_t detail) {
     return {static_cast<std::uint32_t>(detail), static_cast<TrafficClass>(detail >> 32)};
   }
+};
+
+/// The detail of a trace record of arrived: by which port of the node, and from which port of another one.
+struct ArrivalDetail {
+  std::uint16_t port = 0;
+  sim::ComponentId sender;
+  constexpr std::uint64_t pack() const { return static_cast<std::uint64_t>(sender.index) << 32 | port; }
+  static constexpr ArrivalDetail unpack(std::uint64_t detail) { return {static_cast<std::uint16_t>(detail), {static_cast<std::uint32_t>(detail >> 32)}}; }
 };
 
 /// One stream: its addressing and its account.
@@ -142,12 +169,12 @@ class Traffic {
   }
 
   /// A record that may be changed, because no other copy of the frame shares it: the same one if that is so already, a new one
-  /// otherwise. The caller's copy goes on as the record that is returned.
-  FrameIndex own(FrameIndex index) { return frames_[index].references == 1 ? index : separate(index); }
+  /// otherwise. The caller's copy goes on as the record that is returned. Whoever records the run is told that it happened at component `where`.
+  FrameIndex own(FrameIndex index, sim::ComponentId where) { return frames_[index].references == 1 ? index : separate(index, where); }
   /// One more copy of the frame, with a record of its own.
-  FrameIndex duplicate(FrameIndex index) {
+  FrameIndex duplicate(FrameIndex index, sim::ComponentId where) {
     copy(index);
-    return separate(index);
+    return separate(index, where);
   }
   /// Puts tags on or takes them off. Precondition: the record is not shared.
   void set_tags(FrameIndex index, bool tagged, bool r_tagged);
@@ -219,7 +246,7 @@ class Traffic {
   static bool is_under_way(const Frame& frame) { return frame.references - 1 < most_references; }
   FrameIndex make(StreamIndex stream, Octets payload, sim::TrueTime now);
   FrameIndex make(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
-  FrameIndex separate(FrameIndex index);
+  FrameIndex separate(FrameIndex index, sim::ComponentId where);
   PayloadIndex keep(std::span<const std::byte> octets);
   /// One frame less carries the payload.
   void release(PayloadIndex index) {

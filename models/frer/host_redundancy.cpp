@@ -12,9 +12,9 @@ auto place_of(Entries& entries, StreamIndex stream) {
 
 }  // namespace
 
-void TalkerRedundancy::add(StreamIndex stream, const StreamSplitConfig& config) {
+void TalkerRedundancy::add(StreamIndex stream, const StreamSplitConfig& config, sim::ComponentId where) {
   TAKT_CHECK(find(stream) == nullptr, "a stream is split once");
-  streams_.insert(place_of(streams_, stream), {stream, StreamSplit(config)});
+  streams_.insert(place_of(streams_, stream), {stream, StreamSplit(config, where)});
   outgoing_.resize(std::max(outgoing_.size(), std::max<std::size_t>(1, config.members.size())));
 }
 
@@ -31,9 +31,9 @@ std::span<const TalkerRedundancy::Outgoing> TalkerRedundancy::send(Traffic& traf
   return {outgoing_.data(), frames.size()};
 }
 
-void ListenerRedundancy::add(StreamIndex stream, const StreamRecoveryConfig& config) {
+void ListenerRedundancy::add(StreamIndex stream, const StreamRecoveryConfig& config, sim::ComponentId where) {
   TAKT_CHECK(find(stream) == nullptr, "a stream is recovered once");
-  streams_.insert(place_of(streams_, stream), {stream, StreamRecovery(config)});
+  streams_.insert(place_of(streams_, stream), {stream, StreamRecovery(config, where)});
 }
 
 StreamRecovery* ListenerRedundancy::find(StreamIndex stream) {

@@ -21,7 +21,8 @@ class TalkerRedundancy {
     bool operator==(const Outgoing&) const = default;
   };
 
-  void add(StreamIndex stream, const StreamSplitConfig& config);
+  /// `where`: see StreamSplit.
+  void add(StreamIndex stream, const StreamSplitConfig& config, sim::ComponentId where = {});
   bool is_empty() const { return streams_.empty(); }
 
   /// The frames that the host sends instead of this one, and through which of its ports. Precondition: its stream is split here. The span lives
@@ -44,7 +45,8 @@ class TalkerRedundancy {
 /// receive latency.
 class ListenerRedundancy {
  public:
-  void add(StreamIndex stream, const StreamRecoveryConfig& config);
+  /// `where`: see StreamRecovery.
+  void add(StreamIndex stream, const StreamRecoveryConfig& config, sim::ComponentId where = {});
   bool is_empty() const { return streams_.empty(); }
 
   /// The record with which the frame goes on to the listener; nothing if it is a copy too many, which the caller drops as

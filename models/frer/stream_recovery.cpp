@@ -4,8 +4,8 @@
 
 namespace takt::models {
 
-StreamRecovery::StreamRecovery(const StreamRecoveryConfig& config)
-    : config_(config), compound_(config.recovery, config.reset_timeout) {
+StreamRecovery::StreamRecovery(const StreamRecoveryConfig& config, sim::ComponentId where)
+    : config_(config), where_(where), compound_(config.recovery, config.reset_timeout) {
   TAKT_CHECK(config.reset_timeout > sim::Duration(), "a reset timeout is positive");
   TAKT_CHECK(!config.recovery.individual_recovery, "recovery of a compound stream is not individual");
   if (!config.latent_error_detection) return;
@@ -28,7 +28,7 @@ std::optional<FrameIndex> StreamRecovery::receive(Traffic& traffic, FrameIndex i
   }
   if (!compound_.recover(sequence, now)) return std::nullopt;
 
-  const FrameIndex own = traffic.own(index);
+  const FrameIndex own = traffic.own(index, where_);
   Frame& frame = traffic.frame(own);
   frame.on_route = false;
   frame.destination = config_.destination;

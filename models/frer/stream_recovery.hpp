@@ -46,7 +46,8 @@ class StreamRecovery {
  public:
   static constexpr std::size_t no_member = 0xFFFF;
 
-  explicit StreamRecovery(const StreamRecoveryConfig& config);
+  /// `where`: the component that records name as the place.
+  explicit StreamRecovery(const StreamRecoveryConfig& config, sim::ComponentId where = {});
 
   /// What became of a frame: nothing if it is a copy too many (the caller drops it, as DropReason::duplicate), otherwise the
   /// record with which the caller's copy goes on: addressed to the compound stream and, unless the tag is kept, without R-TAG.
@@ -79,6 +80,7 @@ class StreamRecovery {
   void run_latent_error_detection(sim::LocalTime until);
 
   StreamRecoveryConfig config_;
+  sim::ComponentId where_;
   TimedRecovery compound_;
   std::vector<Individual> individual_;
   std::optional<LatentErrorDetection> latent_;

@@ -13,7 +13,8 @@ namespace takt::models {
 
 class StreamSplit {
  public:
-  explicit StreamSplit(const StreamSplitConfig& config) : config_(config), frames_(config.members.size()) {
+  /// `where`: the component that records name as the place.
+  explicit StreamSplit(const StreamSplitConfig& config, sim::ComponentId where = {}) : config_(config), where_(where), frames_(config.members.size()) {
     TAKT_CHECK(!config_.members.empty(), "a stream is split into members");
   }
 
@@ -32,7 +33,7 @@ class StreamSplit {
     std::size_t made = 0;
     for (std::size_t i = 0; i <= last; ++i) {
       if (is_left_out(i, except)) continue;
-      frames_[made] = i < last ? traffic.duplicate(frame) : traffic.own(frame);
+      frames_[made] = i < last ? traffic.duplicate(frame, where_) : traffic.own(frame, where_);
       address(traffic, frames_[made], config_.members[i], number);
       ++made;
     }
@@ -61,6 +62,7 @@ class StreamSplit {
   }
 
   StreamSplitConfig config_;
+  sim::ComponentId where_;
   SequenceGeneration generation_;
   Counters counters_;
   std::vector<FrameIndex> frames_;

@@ -53,6 +53,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
 
   // For reports.
   NodeIndex node() const { return node_; }
+  sim::ComponentId id() const { return source_.id(); }
   ClockState state() const { return !up_ ? ClockState::down : active_is_grandmaster() ? ClockState::locked : static_cast<ClockState>(target_.state()); }
   /// The root of a tree that cannot be grandmaster gives time to nobody.
   bool active_is_grandmaster() const { return gives_time(active()); }

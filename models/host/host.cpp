@@ -109,7 +109,7 @@ std::optional<FrameIndex> Host::look_closer(sim::Simulation& simulation, Arrival
   FrameIndex frame = arrival.frame;
   if (arrival.is_uncertain() && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return std::nullopt;
   if (tells_arrivals_ && simulation.trace() != nullptr)
-    simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id(), frame.value, arrival.port});
+    simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id(), frame.value, ArrivalDetail{arrival.port, ports_[arrival.port].incoming().sender()}.pack()});
   if (!up_ || traffic_->frame(frame).bad_fcs) {
     traffic_->drop(frame, up_ ? DropReason::bad_fcs : DropReason::node_down, id(), simulation);
     return std::nullopt;

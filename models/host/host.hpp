@@ -28,7 +28,7 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
 
   /// The host takes copies of the stream that come more than once out (IEEE 802.1CB).
   void recover(StreamIndex stream, const StreamRecoveryConfig& config) {
-    redundancy_.add(stream, config);
+    redundancy_.add(stream, config, id());
     looks_closer_ = true;
   }
   /// Deliveries here are entered in Traffic::book() as well.

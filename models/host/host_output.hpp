@@ -31,8 +31,8 @@ class HostOutput {
     plain_ = false;
   }
   /// A stream of this host is split into member streams (IEEE 802.1CB).
-  void split(StreamIndex stream, const StreamSplitConfig& config) {
-    redundancy_.add(stream, config);
+  void split(StreamIndex stream, const StreamSplitConfig& config, sim::ComponentId host) {
+    redundancy_.add(stream, config, host);
     plain_ = false;
   }
   /// A stream of this host is shaped by eligibility times; parameters as in TalkerAts::add.

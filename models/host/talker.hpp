@@ -44,6 +44,7 @@ class Talker final : public sim::Component, public CpuUser {
   /// Only frames that are due before then are produced.
   void set_until(sim::LocalTime until) { until_ = until; }
   StreamIndex stream() const { return stream_; }
+  sim::ComponentId id() const { return source_.id(); }
 
   /// Schedules the first frame.
   void start(sim::Simulation& simulation);

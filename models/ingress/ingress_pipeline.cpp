@@ -18,8 +18,8 @@ IngressPipeline::IngressPipeline(Traffic& traffic, const IngressConfig& config, 
     schedulers_.push_back({scheduler,
                            AtsScheduler(scheduler.committed_information_rate, std::uint64_t{8} * scheduler.committed_burst_size.count), 0, 0, {}});
   for (const AtsGroupConfig& group : config.ats_groups) groups_.push_back({group.maximum_residence_time, {}, 0});
-  for (const IngressSplit& split : config.splits) splits_.push_back({split.stream, StreamSplit(split.split)});
-  for (const IngressRecovery& recovery : config.recoveries) recoveries_.push_back({recovery.stream, StreamRecovery(recovery.recovery)});
+  for (const IngressSplit& split : config.splits) splits_.push_back({split.stream, StreamSplit(split.split, where)});
+  for (const IngressRecovery& recovery : config.recoveries) recoveries_.push_back({recovery.stream, StreamRecovery(recovery.recovery, where)});
   for (std::uint32_t i = 0; i < config.stream_filters.size(); ++i) {
     const StreamFilterConfig& filter = config.stream_filters[i];
     Instances of{Instances::Kind::other, &filters_[StreamFilterIndex{i}], filter.stream_gate.is_none() ? nullptr : &gates_[filter.stream_gate.value],
@@ -165,7 +165,7 @@ bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, con
   }
 
   if (!ipv && !eligible && drop_eligible == frame.drop_eligible) return true;
-  index = traffic_->own(index);
+  index = traffic_->own(index, where_);
   Frame& own = traffic_->frame(index);
   own.drop_eligible = drop_eligible;
   if (ipv || eligible) {

@@ -30,6 +30,7 @@ void Part::send(std::uint32_t part, const sim::Event& arrival, FrameIndex frame)
     to.octets.insert(to.octets.end(), octets.begin(), octets.end());
   }
   sent_.push_back(frame);
+  if (watcher_ != nullptr) watcher_->left(part, arrival, frame);
 }
 
 sim::TrueTime Part::safe_until() const {
@@ -43,6 +44,7 @@ void Part::take_mail() {
     if (!neighbour.from->take(incoming_)) continue;
     for (const Parcel& parcel : incoming_.parcels) {
       const FrameIndex frame = network_->traffic().take_over(parcel.frame, std::span(incoming_.octets).subspan(parcel.octets_from, parcel.octets));
+      if (watcher_ != nullptr) watcher_->came(neighbour.part, parcel.arrival, frame);
       simulation_->receive(parcel.arrival.time, parcel.arrival.order, parcel.arrival.serial_kind, parcel.arrival.argument | frame.value);
     }
     incoming_.clear();
@@ -51,7 +53,10 @@ void Part::take_mail() {
 
 /// What has left since the last time is on its way; and what may leave from now on.
 void Part::post(sim::TrueTime safe) {
-  for (const FrameIndex frame : sent_) network_->traffic().release(frame);
+  for (const FrameIndex frame : sent_) {
+    if (watcher_ != nullptr && network_->traffic().frame(frame).references == 1) watcher_->over(frame);
+    network_->traffic().release(frame);
+  }
   sent_.clear();
   const sim::TrueTime next = std::min(simulation_->next_time(), safe);
   for (const Neighbour& neighbour : neighbours_) {

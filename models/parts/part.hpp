@@ -13,6 +13,7 @@
 
 #include "models/network.hpp"
 #include "models/parts/bell.hpp"
+#include "models/parts/crossing_watcher.hpp"
 #include "models/parts/mailbox.hpp"
 #include "sim/simulation.hpp"
 
@@ -40,6 +41,9 @@ class Part {
   /// See FrameExchange.
   void send(std::uint32_t part, const sim::Event& arrival, FrameIndex frame);
 
+  /// From now on it is told of what goes from part to part; null: nobody.
+  void set_watcher(CrossingWatcher* watcher) { watcher_ = watcher; }
+
   /// What wakes this part.
   Bell& bell() { return bell_; }
 
@@ -55,6 +59,7 @@ class Part {
   sim::Simulation* simulation_;
   Network* network_;
   bool is_crowded_;
+  CrossingWatcher* watcher_ = nullptr;
   Bell bell_;
   std::vector<Neighbour> neighbours_;
   sim::Duration shortest_promise_ = sim::Duration::from_ps(INT64_MAX);

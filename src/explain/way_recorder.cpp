@@ -11,7 +11,7 @@ namespace takt::explain {
 
 using models::Occurrence;
 
-WayRecorder::WayRecorder(const models::Network& network, WaySink& sink) : network_(&network), sink_(&sink), directory_(network) {
+WayRecorder::WayRecorder(const models::Network& network, WaySink& sink) : network_(&network), view_(network), sink_(&sink), directory_(network) {
   accounts_.resize(directory_.ports().size());
   waiting_.resize(directory_.ports().size());
   const auto know = [&](sim::ComponentId component, std::uint32_t node) {
@@ -58,6 +58,7 @@ void WayRecorder::record(const sim::TraceRecord& record) {
     case Occurrence::received: return received(record);
     case Occurrence::drop: return dropped(record);
     case Occurrence::separated: return separated(record);
+    case Occurrence::ended: return record_ends(static_cast<std::uint32_t>(record.what));
     case Occurrence::processing:
       if (Copy* const copy = copy_of(record.what)) {
         const models::NodeIndex node = node_of(record.where);   // a talker is none
@@ -83,7 +84,7 @@ void WayRecorder::record(const sim::TraceRecord& record) {
 
 void WayRecorder::produced(const sim::TraceRecord& record) {
   const auto handle = static_cast<std::uint32_t>(record.what);
-  const models::Frame& frame = network_->traffic().frame({handle});
+  const models::Frame& frame = view_.frame({handle});
   if (!wanted_[frame.stream.value] || !sink_->wants_frame(frame)) return;
   if (free_journeys_.empty()) {
     free_journeys_.push_back(static_cast<std::uint32_t>(journeys_.size()));
@@ -116,8 +117,7 @@ void WayRecorder::arrived(const sim::TraceRecord& record) {
   Copy* const copy = copy_of(record.what);
   if (copy == nullptr) return;
   const models::NodeIndex node = node_of(record.where);
-  const sim::ComponentId sender = network_->ports(node)[record.detail].incoming().sender();
-  copy->places.push_back({node, visit_at(*copy, directory_.find(sender))});
+  copy->places.push_back({node, visit_at(*copy, directory_.find(models::ArrivalDetail::unpack(record.detail).sender))});
 }
 
 /// The visit of the frame to that port: the one under way, or a new one.
@@ -166,7 +166,7 @@ void WayRecorder::started(const sim::TraceRecord& record) {
   const std::uint32_t position = directory_.find(record.where);
   const auto detail = models::TransmissionDetail::unpack(record.detail);
   const Duration octet_time = directory_.ports()[position].octet_time;
-  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   if (Copy* const copy = copy_of(record.what)) {
     Visit& here = visit(*copy, position, record.time);
     here.hop.traffic_class = detail.traffic_class;
@@ -174,9 +174,8 @@ void WayRecorder::started(const sim::TraceRecord& record) {
     waits_no_more(position, here, record.time);
     here.hop.started = here.last_start = record.time;
     here.hop.octets = here.left = detail.octets;
-    const models::LinkEnd& far_end = network_->ports(here.hop.port.node)[here.hop.port.port].link().reception().far_end;
-    here.cable = far_end.delay - far_end.node_delay;
-    here.node_delay = far_end.node_delay;
+    here.node_delay = view_.node_delay(here.hop.port.node, here.hop.port.port);
+    here.cable = view_.delay(here.hop.port.node, here.hop.port.port) - here.node_delay;
   }
   if (waiting_[position] == 0) accounts_[position].forget(record.time);
   accounts_[position].started(record.time, record.time + octet_time * models::wire_length(models::Octets{detail.octets}).count, {frame.stream, frame.sequence}, detail.traffic_class, false);
@@ -204,7 +203,7 @@ void WayRecorder::cut(const sim::TraceRecord& record) {
 void WayRecorder::resumed(const sim::TraceRecord& record) {
   const std::uint32_t position = directory_.find(record.where);
   const auto detail = models::TransmissionDetail::unpack(record.detail);
-  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   if (Copy* const copy = copy_of(record.what)) {
     Visit& here = journeys_[copy->journey].visits[visit_at(*copy, position)];
     explain_wait(here, here.last_free, record.time, true);
@@ -308,7 +307,7 @@ void WayRecorder::received(const sim::TraceRecord& record) {
   Copy* const copy = copy_of(record.what);
   if (copy == nullptr) return;
   const models::NodeIndex node = node_of(record.where);
-  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   const Place* const place = place_at(*copy, node);
   TAKT_CHECK(place != nullptr && place->from != none, "a frame that is delivered has come there");
   journeys_[copy->journey].visits[place->from].is_over = true;
@@ -326,7 +325,7 @@ void WayRecorder::dropped(const sim::TraceRecord& record) {
   Copy* const copy = copy_of(record.what);
   if (copy == nullptr) return;
   Journey& journey = journeys_[copy->journey];
-  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   const auto reason = static_cast<models::DropReason>(record.detail);
   const std::uint32_t position = directory_.find(record.where);
   models::NodeIndex node = node_of(record.where);
@@ -363,7 +362,11 @@ void WayRecorder::dropped(const sim::TraceRecord& record) {
 
 /// The last copy that shares a record ends it.
 void WayRecorder::copy_ends(std::uint32_t record, const models::Frame& frame) {
-  if (frame.references != 1) return;
+  if (!view_.is_told_of_ends() && frame.references == 1) record_ends(record);
+}
+
+void WayRecorder::record_ends(std::uint32_t record) {
+  if (copy_of(record) == nullptr) return;
   const std::uint32_t number = std::exchange(copies_[record].journey, none);
   if (std::erase(journeys_[number].records, record) == 1 && journeys_[number].records.empty()) free_journeys_.push_back(number);
 }

@@ -6,6 +6,7 @@
 
 #include "explain/port_account.hpp"
 #include "explain/way.hpp"
+#include "models/moment.hpp"
 #include "models/network.hpp"
 #include "models/port_directory.hpp"
 #include "sim/trace.hpp"
@@ -40,6 +41,9 @@ class WayRecorder final : public sim::TraceSink {
  public:
   /// Both outlive it.
   WayRecorder(const models::Network& network, WaySink& sink);
+
+  /// It is told of things later than they happen, each with its moment.
+  void look_at(const models::Moment& moment) { view_.look_at(moment); }
 
   void record(const sim::TraceRecord& record) override;
   /// The run is over: tells of what is under way, in the order of production.
@@ -107,6 +111,7 @@ class WayRecorder final : public sim::TraceSink {
   void dropped(const sim::TraceRecord& record);
   void separated(const sim::TraceRecord& record);
   void copy_ends(std::uint32_t record, const models::Frame& frame);
+  void record_ends(std::uint32_t record);
 
   /// The way up to the visit `last`, and on to `place`, if it came there; otherwise it ended at that port or on the wire behind it.
   Way way_of(const Copy& copy, std::uint32_t last, const Place* place, TrueTime ended);
@@ -115,6 +120,7 @@ class WayRecorder final : public sim::TraceSink {
   void add_flight(const Visit& visit, TrueTime until, bool arrives, const Place* host, std::vector<Part>& parts) const;
 
   const models::Network* network_;
+  models::View view_;
   WaySink* sink_;
   models::PortDirectory directory_;
   std::vector<std::uint32_t> node_of_component_;

@@ -130,7 +130,7 @@ TEST(Traffic, NoCopyOfAFrameEndsTwice) {
   traffic.release(frame);
   EXPECT_EQ(traffic.live_frames(), 0u);
   EXPECT_THROW(traffic.copy(frame), sim::InvariantBroken);
-  EXPECT_THROW(traffic.own(frame), sim::InvariantBroken);
+  EXPECT_THROW(traffic.own(frame, {}), sim::InvariantBroken);
   EXPECT_THROW(traffic.release(frame), sim::InvariantBroken);
 }
 

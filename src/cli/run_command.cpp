@@ -11,7 +11,7 @@
 #include "cli/load.hpp"
 #include "cli/places.hpp"
 #include "cli/progress.hpp"
-#include "cli/recording.hpp"
+#include "output/recording.hpp"
 #include "cli/terminal.hpp"
 #include "cli/threads.hpp"
 #include "report/run_page.hpp"
@@ -26,7 +26,7 @@ namespace {
 
 struct RunOptions {
   ScenarioOptions scenario;
-  RecordingOptions recording;
+  output::RecordingOptions recording;
   std::string out;
   std::string report;
   std::uint32_t threads = 1;
@@ -34,12 +34,16 @@ struct RunOptions {
   bool all = false;
 };
 
+/// What is recorded is kept until the slice is over: so many bytes for each event.
+constexpr std::uint64_t recorded_events_a_slice = 100'000;
+
 /// Simulates in slices, so that the bar moves and Ctrl-C is seen. True if the end was reached.
-bool simulate(scenario::Run& run, bool show_progress) {
+bool simulate(scenario::Run& run, output::Recording& recording, bool is_recorded, bool show_progress) {
   const InterruptGuard interrupt;
   Progress progress(show_progress);
-  constexpr std::uint64_t events_a_slice = 200'000;
+  const std::uint64_t events_a_slice = is_recorded ? recorded_events_a_slice : 200'000;
   while (!run.advance(events_a_slice)) {
+    recording.write_until(run.simulation().now());
     if (interrupt.requested()) return false;
     progress.update(run.simulation().now().since_start(), run.end().since_start(), run.simulation().event_count());
   }
@@ -47,15 +51,16 @@ bool simulate(scenario::Run& run, bool show_progress) {
 }
 
 /// The same on several threads, in slices of time, each about as many events.
-bool simulate(scenario::DividedRun& run, bool show_progress) {
+bool simulate(scenario::DividedRun& run, output::Recording& recording, bool is_recorded, bool show_progress) {
   const InterruptGuard interrupt;
   Progress progress(show_progress);
-  constexpr std::uint64_t events_a_slice = 2'000'000;
+  const std::uint64_t events_a_slice = is_recorded ? recorded_events_a_slice : 2'000'000;
   sim::Duration slice = sim::Duration::from_ps(std::max<std::int64_t>(1, run.end().ps() / 10'000));
   while (run.now() < run.end()) {
     if (interrupt.requested()) return false;
     const std::uint64_t before = run.event_count();
     run.advance(run.now().plus_saturated(slice));
+    recording.write_until(run.now());
     if (run.event_count() - before < events_a_slice / 2) slice = std::min(slice * 2, run.end() - sim::TrueTime());
     if (run.event_count() - before > events_a_slice * 2) slice = std::max(slice / 2, sim::Duration::from_ps(1));
     progress.update(run.now().since_start(), run.end().since_start(), run.event_count());
@@ -82,11 +87,10 @@ std::string write_page(const std::string& path, const scenario::Resolved& resolv
 }
 
 /// The files of the folder whose names are known before the run: where one of them is a folder, the run would be for nothing.
-bool can_write_files(const RunOptions& options, const Recording* recording) {
+bool can_write_files(const RunOptions& options, const output::Recording& recording) {
   if (options.out.empty()) return true;
   std::vector<std::string> names(output::result_files.begin(), output::result_files.end());
-  if (recording != nullptr)
-    for (std::string& name : recording->files()) names.push_back(std::move(name));
+  for (std::string& name : recording.files()) names.push_back(std::move(name));
   for (std::string& name : names) name = (std::filesystem::path(options.out) / name).string();
   std::vector<Place> places;
   for (const std::string& name : names) places.push_back({"--out", name, Place::Kind::file});
@@ -100,30 +104,31 @@ ExitStatus run(const RunOptions& options) {
   json::Diagnostics diagnostics;
   if (options.recording.is_wanted() && options.out.empty())
     diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {"--pcap, --timeline, --waves, --clocks or --frames", "--out DIR"});
-  const scenario::Division division = division_for(*resolved, options.threads, options.recording.is_wanted() ? "recordings are made in the order of events" : "");
+  const scenario::Division division = division_for(*resolved, options.threads);
   std::optional<scenario::Run> whole;
   std::optional<scenario::DividedRun> divided;
   division.is_divided() ? void(divided.emplace(*resolved, division)) : void(whole.emplace(*resolved));
-  std::optional<Recording> recording;
-  if (whole) recording.emplace(options.recording, options.out, *whole, diagnostics);
+  std::optional<output::Recording> recording;
+  whole ? void(recording.emplace(options.recording, options.out, *whole, diagnostics)) : void(recording.emplace(options.recording, options.out, *divided, diagnostics));
   if (diagnostics.has_errors()) {
     tell(diagnostics);
     return ExitStatus::bad_input;
   }
-  if (!can_write_files(options, recording ? &*recording : nullptr)) return ExitStatus::bad_input;
+  if (!can_write_files(options, *recording)) return ExitStatus::bad_input;
   std::optional<output::WrittenFiles> folder;
   if (!options.out.empty()) {
     folder.emplace(options.out, "run", options.scenario.file);
     if (const std::string problem = folder->begin(); !problem.empty()) return cannot_write(problem);
   }
-  if (const std::string problem = recording ? recording->open() : ""; !problem.empty()) return cannot_write(problem);
+  if (const std::string problem = recording->open(); !problem.empty()) return cannot_write(problem);
   const bool show_progress = !options.quiet && !options.scenario.is_json();
-  const bool complete = whole ? simulate(*whole, show_progress) : simulate(*divided, show_progress);
+  const bool is_recorded = options.recording.is_wanted();
+  const bool complete = whole ? simulate(*whole, *recording, is_recorded, show_progress) : simulate(*divided, *recording, is_recorded, show_progress);
   const results::RunResult result = evaluation::evaluate(whole ? *whole : divided->gathered(), !complete);
-  if (const std::string problem = recording ? recording->close() : ""; !problem.empty()) return cannot_write(problem);
+  if (const std::string problem = recording->close(); !problem.empty()) return cannot_write(problem);
   const bool report_is_inside = folder && !options.report.empty() && folder->add_if_inside(options.report);
   if (folder) {
-    for (std::string& name : recording ? recording->files() : std::vector<std::string>()) folder->add(std::move(name));
+    for (std::string& name : recording->files()) folder->add(std::move(name));
     if (const std::string problem = output::write_result_folder(*folder, result, json::encode(resolved->scenario)); !problem.empty()) return cannot_write(problem);
   }
   if (!options.report.empty())

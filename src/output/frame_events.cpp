@@ -16,7 +16,7 @@ std::string_view name_of(FrameEnd end) {
   return "under way";
 }
 
-FrameEvents::FrameEvents(const models::Network& network) : network_(&network), directory_(network) {
+FrameEvents::FrameEvents(const models::Network& network) : network_(&network), view_(network), directory_(network) {
   const auto know = [&](sim::ComponentId component, std::uint32_t node) {
     if (node_of_component_.size() <= component.index) node_of_component_.resize(component.index + std::size_t{1}, FrameEvent::none);
     node_of_component_[component.index] = static_cast<std::int32_t>(node);
@@ -40,7 +40,7 @@ void FrameEvents::place(sim::ComponentId component, FrameEvent& event) const {
 void FrameEvents::record(const sim::TraceRecord& record) {
   const auto occurrence = static_cast<Occurrence>(record.kind);
   if (occurrence != Occurrence::received && occurrence != Occurrence::drop) return;
-  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   if (frame.link_local) return;
   FrameEvent event;
   event.stream = frame.stream.value;

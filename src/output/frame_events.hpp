@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "models/moment.hpp"
 #include "output/port_directory.hpp"
 #include "sim/trace.hpp"
 
@@ -31,6 +32,8 @@ class FrameEvents : public sim::TraceSink {
  public:
   /// The network outlives this.
   explicit FrameEvents(const models::Network& network);
+  /// It is told of things later than they happen, each with its moment.
+  void look_at(const models::Moment& moment) { view_.look_at(moment); }
   void record(const sim::TraceRecord& record) final;
 
  protected:
@@ -43,6 +46,7 @@ class FrameEvents : public sim::TraceSink {
   void place(sim::ComponentId component, FrameEvent& event) const;
 
   const models::Network* network_;
+  models::View view_;
   PortDirectory directory_;
   std::vector<std::int32_t> node_of_component_;   // of those that are no ports
 };

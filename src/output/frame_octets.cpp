@@ -145,16 +145,20 @@ std::span<const std::byte> encode_frame(const Frame& frame, const FrameEncoding&
 }
 
 std::span<const std::byte> encode_frame(const models::Network& network, models::FrameIndex index, FrameBuffer& buffer) {
-  const models::Traffic& traffic = network.traffic();
-  const Frame& frame = traffic.frame(index);
+  const Frame& frame = network.traffic().frame(index);
+  return encode_frame(network, frame, frame.payload.is_none() ? std::span<const std::byte>() : network.traffic().payload(frame.payload).view(), buffer);
+}
+
+std::span<const std::byte> encode_frame(const models::Network& network, const Frame& frame, std::span<const std::byte> payload, FrameBuffer& buffer) {
+  const models::Stream& stream = network.traffic().stream(frame.stream);
   FrameEncoding encoding;
   encoding.first_group = static_cast<std::uint32_t>(network.plan().nodes.size());
-  encoding.headers = traffic.stream(frame.stream).headers;
-  if (!frame.payload.is_none()) encoding.payload = traffic.payload(frame.payload).view();
-  if (traffic.stream(frame.stream).ether_type != 0) encoding.ether_type = traffic.stream(frame.stream).ether_type;
-  encoding.udp_port = traffic.stream(frame.stream).udp_port;
-  encoding.udp_source_port = traffic.stream(frame.stream).udp_source_port;
-  encoding.ip_group = traffic.stream(frame.stream).ip_group;
+  encoding.headers = stream.headers;
+  if (!frame.payload.is_none()) encoding.payload = payload;
+  if (stream.ether_type != 0) encoding.ether_type = stream.ether_type;
+  encoding.udp_port = stream.udp_port;
+  encoding.udp_source_port = stream.udp_source_port;
+  encoding.ip_group = stream.ip_group;
   if (frame.r_tagged) encoding.r_tag = frame.r_tag_sequence;
   encoding.drop_eligible = frame.drop_eligible;
   return encode_frame(frame, encoding, buffer);

@@ -46,5 +46,7 @@ std::span<const std::byte> encode_frame(const models::Frame& frame, const FrameE
 
 /// The same for a frame that is under way in a network.
 std::span<const std::byte> encode_frame(const models::Network& network, models::FrameIndex frame, FrameBuffer& buffer);
+/// The same for a frame that was; `payload`: its octets, if the model held them.
+std::span<const std::byte> encode_frame(const models::Network& network, const models::Frame& frame, std::span<const std::byte> payload, FrameBuffer& buffer);
 
 }  // namespace takt::output

@@ -13,12 +13,18 @@ const models::EgressPort& GateFollower::live(std::uint32_t position) const {
   return network_->ports(id.node)[id.port];
 }
 
-bool GateFollower::has_gates(std::uint32_t position) const { return live(position).shaping() != nullptr && live(position).shaping()->has_gates(); }
+bool GateFollower::has_gates(std::uint32_t position) const {
+  return network_->has(directory_->ports()[position].id.node) && live(position).shaping() != nullptr && live(position).shaping()->has_gates();
+}
 
 void GateFollower::look_at(std::uint32_t position, sim::TrueTime now) {
   if (!has_gates(position)) return;
-  gates_[position].schedule = std::as_const(*live(position).shaping()).gates();
-  gates_[position].next = now;
+  Gates& followed = gates_[position];
+  followed.is_there = true;
+  followed.schedule = std::as_const(*live(position).shaping()).gates();
+  followed.stuck_open = live(position).shaping()->with_forced(0);
+  followed.not_stuck_closed = live(position).shaping()->with_forced(0xFF);
+  followed.next = now;
   follow(position);
 }
 
@@ -33,8 +39,10 @@ void GateFollower::follow(std::uint32_t position) {
 }
 
 std::uint64_t GateFollower::states(std::uint32_t position, sim::TrueTime at) {
-  if (!has_gates(position)) return 0xFF;
-  return live(position).shaping()->with_forced(gates_[position].schedule.gate_states(live(position).clock().local_at(at)));
+  Gates& followed = gates_[position];
+  if (!followed.is_there) return 0xFF;
+  const std::uint64_t states = followed.schedule.gate_states(live(position).clock().local_at(at));
+  return (states & followed.not_stuck_closed) | followed.stuck_open;
 }
 
 sim::TrueTime GateFollower::next_time() {

@@ -1,4 +1,4 @@
-// Follows the gates of all ports along their lists, for who draws them; copies, so that no port notices.
+// Follows the gates of the ports of a network along their lists, for who draws them; copies, so that no port notices.
 #pragma once
 
 #include <queue>
@@ -10,12 +10,12 @@ namespace takt::output {
 
 class GateFollower {
  public:
-  /// Both outlive it.
+  /// Both outlive it. Of a part of a divided run only the part's own ports have gates.
   GateFollower(const models::Network& network, const models::PortDirectory& directory);
 
   /// Whether the port, by its position in the directory, has gates at present.
   bool has_gates(std::uint32_t position) const;
-  /// The gates of the port are others from now on.
+  /// The gates of the port, or the clock that they go by, are others from now on. What comes before has been popped.
   void look_at(std::uint32_t position, sim::TrueTime now);
   /// Bit q: the gate of class q is open, broken ones as they are stuck. Times ascend.
   std::uint64_t states(std::uint32_t position, sim::TrueTime at);
@@ -33,6 +33,9 @@ class GateFollower {
  private:
   struct Gates {
     models::GateSchedule schedule;
+    bool is_there = false;
+    models::GateStates stuck_open = 0;
+    models::GateStates not_stuck_closed = 0xFF;
     sim::TrueTime next = sim::TrueTime::never();   // when they next change
   };
   const models::EgressPort& live(std::uint32_t position) const;

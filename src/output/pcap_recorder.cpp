@@ -16,7 +16,7 @@ constexpr std::int64_t bits_times_ps = 8 * 1'000'000'000'000;   // of an octet i
 
 }  // namespace
 
-PcapRecorder::PcapRecorder(const models::Network& network) : network_(&network), directory_(network) { files_of_port_.resize(directory_.ports().size()); }
+PcapRecorder::PcapRecorder(const models::Network& network) : network_(&network), view_(network), directory_(network) { files_of_port_.resize(directory_.ports().size()); }
 
 std::string PcapRecorder::add(const std::string& path, const std::vector<models::PortId>& ports) {
   std::vector<std::uint32_t> positions(ports.empty() ? directory_.ports().size() : 0);
@@ -70,14 +70,13 @@ void PcapRecorder::record(const sim::TraceRecord& record) {
   if (record.kind != static_cast<std::uint32_t>(models::Occurrence::started)) return;
   const std::uint32_t port = directory_.find(record.where);
   if (port == models::PortDirectory::none || files_of_port_[port].empty()) return;
-  const models::FrameIndex frame{static_cast<std::uint32_t>(record.what)};
-  const models::StreamIndex stream = network_->traffic().frame(frame).stream;
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   std::span<const std::byte> octets;
   for (const std::uint32_t number : files_of_port_[port]) {
     File& file = files_[number];
-    if (file.file == nullptr || (file.stream && *file.stream != stream)) continue;
+    if (file.file == nullptr || (file.stream && *file.stream != frame.stream)) continue;
     if (file.interface_of_port[port] == none) add_interface(file, port);
-    if (octets.empty()) octets = encode_frame(*network_, frame, buffer_);
+    if (octets.empty()) octets = encode_frame(*network_, frame, frame.payload.is_none() ? std::span<const std::byte>() : view_.payload(frame), buffer_);
     block_.clear();
     pcapng::add_outbound_packet(block_, file.interface_of_port[port], record.time.ps() / ps_in_a_nanosecond, octets);
     file.file->write(block_);

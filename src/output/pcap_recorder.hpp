@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "models/moment.hpp"
 #include "models/port_directory.hpp"
 #include "output/frame_octets.hpp"
 #include "output/streaming_file.hpp"
@@ -29,6 +30,8 @@ class PcapRecorder final : public sim::TraceSink {
   /// One more file: of the frames of one stream, at all ports that they leave by. These become interfaces as the stream comes to them.
   [[nodiscard]] std::string add_stream(const std::string& path, models::StreamIndex stream);
 
+  /// It is told of things later than they happen, each with its moment.
+  void look_at(const models::Moment& moment) { view_.look_at(moment); }
   void record(const sim::TraceRecord& record) override;
 
   /// Writes what is left and gives each file its name; without it no file stays behind. Returns an empty text, or the first thing that went
@@ -50,6 +53,7 @@ class PcapRecorder final : public sim::TraceSink {
   void add_interface(File& file, std::uint32_t position);
 
   const models::Network* network_;
+  models::View view_;
   models::PortDirectory directory_;
   std::vector<File> files_;
   std::vector<std::vector<std::uint32_t>> files_of_port_;

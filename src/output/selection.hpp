@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "explain/way.hpp"
+#include "models/moment.hpp"
 #include "models/network.hpp"
 #include "sim/trace.hpp"
 
@@ -21,37 +22,27 @@ struct Selection {
   bool has(const explain::Way& way) const { return has(way.frame.stream) && way.ended >= from && way.produced <= to; }
 };
 
-/// Hands on what is selected: records of frames of those streams, and all others, within that time.
+/// Hands on what is selected: records of frames of those streams, and all others, within that time; what gates are at any time.
 class SelectedSink final : public sim::TraceSink {
  public:
   /// All outlive it.
-  SelectedSink(const models::Network& network, const Selection& selection, sim::TraceSink& sink) : network_(&network), selection_(&selection), sink_(&sink) {}
+  SelectedSink(const models::Network& network, const Selection& selection, sim::TraceSink& sink) : view_(network), selection_(&selection), sink_(&sink) {}
+
+  /// It is told of things later than they happen, each with its moment.
+  void look_at(const models::Moment& moment) { view_.look_at(moment); }
 
   void record(const sim::TraceRecord& record) override {
-    if (!selection_->has(record.time)) return;
-    if (!selection_->streams.empty() && names_a_frame(static_cast<models::Occurrence>(record.kind)) &&
-        !selection_->has(network_->traffic().frame({static_cast<std::uint32_t>(record.what)}).stream))
-      return;
+    const auto kind = static_cast<models::Occurrence>(record.kind);
+    // What gates are at the beginning was said before it.
+    if (kind != models::Occurrence::gates_shown) {
+      if (!selection_->has(record.time)) return;
+      if (!selection_->streams.empty() && models::names_a_frame(kind) && !selection_->has(view_.frame({static_cast<std::uint32_t>(record.what)}).stream)) return;
+    }
     sink_->record(record);
   }
 
  private:
-  static bool names_a_frame(models::Occurrence kind) {
-    switch (kind) {
-      case models::Occurrence::drop:
-      case models::Occurrence::produced:
-      case models::Occurrence::started:
-      case models::Occurrence::enqueued:
-      case models::Occurrence::dequeued:
-      case models::Occurrence::cut:
-      case models::Occurrence::resumed:
-      case models::Occurrence::received:
-      case models::Occurrence::processing:
-      case models::Occurrence::arrived: return true;
-      default: return false;
-    }
-  }
-  const models::Network* network_;
+  models::View view_;
   const Selection* selection_;
   sim::TraceSink* sink_;
 };

@@ -33,13 +33,12 @@ std::string microseconds(sim::Duration duration) {
 }  // namespace
 
 TimelineRecorder::TimelineRecorder(const models::Network& network, std::string path, sim::TrueTime from, sim::TrueTime to)
-    : network_(&network), from_(from), to_(to), directory_(network), followed_gates_(network, directory_), file_(std::move(path)) {
+    : network_(&network), view_(network), from_(from), to_(to), directory_(network), file_(std::move(path)) {
   file_.write("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n");
   name_ports();
   slices_.resize(directory_.ports().size());
   for (const models::Stream& stream : network.traffic().streams()) stream_names_.push_back(quoted(stream.name));
   gate_tracks_.assign(directory_.ports().size(), no_track);
-  for (std::uint32_t position = 0; position < directory_.ports().size(); ++position) show_gates(position, sim::TrueTime());
 }
 
 void TimelineRecorder::name_ports() {
@@ -130,8 +129,7 @@ void TimelineRecorder::add_way(const explain::Way& way) {
 }
 
 /// The classes whose gates are open, as the state of a track beside the port.
-void TimelineRecorder::show_gates(std::uint32_t position, sim::TrueTime time) {
-  if (!followed_gates_.has_gates(position)) return;
+void TimelineRecorder::show_gates(std::uint32_t position, sim::TrueTime time, std::uint64_t states) {
   const models::PortDirectory::Port& port = directory_.ports()[position];
   if (gate_tracks_[position] == no_track) {
     constexpr std::uint32_t behind_ports = 0x1'0000;
@@ -143,7 +141,6 @@ void TimelineRecorder::show_gates(std::uint32_t position, sim::TrueTime time) {
     gate_tracks_[position] = static_cast<TrackId>(tracks_.size());
     tracks_.push_back(std::move(track));
   }
-  const std::uint64_t states = followed_gates_.states(position, time);
   std::string open;
   for (int q = models::traffic_class_count - 1; q >= 0; --q)
     if ((states >> q & 1) != 0) open += fmt::format("{}{}", open.empty() ? "" : " ", q);
@@ -151,20 +148,10 @@ void TimelineRecorder::show_gates(std::uint32_t position, sim::TrueTime time) {
   if (text != tracks_[gate_tracks_[position]].state) change_state(gate_tracks_[position], time, text);
 }
 
-void TimelineRecorder::follow_gates(sim::TrueTime now) {
-  while (followed_gates_.next_time() <= now) {
-    const GateFollower::Change change = followed_gates_.pop();
-    show_gates(change.position, change.time);
-  }
-}
-
 void TimelineRecorder::record(const sim::TraceRecord& record) {
   const auto kind = static_cast<models::Occurrence>(record.kind);
-  follow_gates(record.time);
-  if (kind == models::Occurrence::gates_changed) {
-    const std::uint32_t position = directory_.find(record.where);
-    followed_gates_.look_at(position, record.time);
-    show_gates(position, record.time);
+  if (kind == models::Occurrence::gates_shown) {
+    show_gates(directory_.find(record.where), record.time, record.what);
     return;
   }
   const bool begins = kind == models::Occurrence::started || kind == models::Occurrence::resumed;
@@ -179,7 +166,7 @@ void TimelineRecorder::record(const sim::TraceRecord& record) {
     slice.is_cut = true;
     return;
   }
-  const models::Frame& frame = network_->traffic().frame({static_cast<std::uint32_t>(record.what)});
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   const std::string& stream = stream_names_[frame.stream.value];
   if (begins) {
     write_slice(position);
@@ -207,7 +194,6 @@ void TimelineRecorder::write_slice(std::uint32_t position) {
 
 std::string TimelineRecorder::close(sim::TrueTime end) {
   for (std::uint32_t position = 0; position < slices_.size(); ++position) write_slice(position);
-  follow_gates(end);
   for (TrackId track = 0; track < tracks_.size(); ++track) change_state(track, std::max(end, tracks_[track].since), "");
   file_.write("\n]}\n");
   return file_.close();

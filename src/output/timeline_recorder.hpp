@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "explain/way.hpp"
+#include "models/moment.hpp"
 #include "models/port_directory.hpp"
-#include "output/gate_follower.hpp"
 #include "output/streaming_file.hpp"
 #include "sim/trace.hpp"
 
@@ -34,6 +34,9 @@ class TimelineRecorder final : public sim::TraceSink {
   /// The way of a frame, when it has ended: an arrow from hop to hop, and each wait at a port as a slice of its own with its cause. Hops that an earlier way has shared are left out.
   void add_way(const explain::Way& way);
 
+  /// It is told of things later than they happen, each with its moment.
+  void look_at(const models::Moment& moment) { view_.look_at(moment); }
+  /// Gates are shown as gates_shown tells.
   void record(const sim::TraceRecord& record) override;
 
   /// Ends all states at `end` and gives the file its name. Returns an empty text, or what went wrong.
@@ -59,18 +62,17 @@ class TimelineRecorder final : public sim::TraceSink {
   };
   static constexpr TrackId no_track = 0xFFFF'FFFF;
   void write_slice(std::uint32_t position);
-  void follow_gates(sim::TrueTime now);
-  void show_gates(std::uint32_t position, sim::TrueTime time);
+  void show_gates(std::uint32_t position, sim::TrueTime time, std::uint64_t states);
   void name_ports();
   void name_process(std::uint32_t process, std::string_view name);
   void name_thread(std::uint32_t process, std::uint32_t thread, std::string_view name);
   void event(std::string_view text);
 
   const models::Network* network_;
+  models::View view_;
   sim::TrueTime from_;
   sim::TrueTime to_;
   models::PortDirectory directory_;
-  GateFollower followed_gates_;
   StreamingFile file_;
   bool first_ = true;
   std::vector<std::string> groups_;

@@ -32,7 +32,7 @@ std::string code_of(std::size_t number) {
 }  // namespace
 
 VcdRecorder::VcdRecorder(const models::Network& network, std::string path)
-    : network_(&network), directory_(network), followed_gates_(network, directory_), path_(path), file_(std::move(path)) {
+    : view_(network), directory_(network), path_(path), file_(std::move(path)) {
   const std::vector<models::NodePlan>& nodes = network.plan().nodes;
   for (const models::PortDirectory::Port& port : directory_.ports()) {
     const std::string_view peer = port.peer.is_none() ? std::string_view("nothing") : nodes[port.peer.value].name;
@@ -43,8 +43,6 @@ VcdRecorder::VcdRecorder(const models::Network& network, std::string path)
   }
   begun_.resize(directory_.ports().size());
   free_at_.resize(directory_.ports().size());
-  for (std::uint32_t position = 0; position < directory_.ports().size(); ++position)
-    signals_[position * signals_of_a_port + gates].value = followed_gates_.states(position, sim::TrueTime());
 }
 
 VcdRecorder::SignalId VcdRecorder::add_signal(std::string_view scope, std::string_view name, unsigned bits, std::uint64_t initial) {
@@ -80,23 +78,25 @@ void VcdRecorder::set(SignalId signal, sim::TrueTime time, std::uint64_t value) 
 }
 
 void VcdRecorder::record(const sim::TraceRecord& record) {
-  if (record.kind == static_cast<std::uint32_t>(models::Occurrence::output_changed)) {
+  const auto kind = static_cast<models::Occurrence>(record.kind);
+  if (kind == models::Occurrence::output_changed) {
     if (record.what < outputs_.size()) set(outputs_[record.what], record.time, record.detail);
     return;
   }
   const std::uint32_t position = directory_.find(record.where);
-  if (position == models::PortDirectory::none) return;
+  if (position == models::PortDirectory::none || kind == models::Occurrence::ended) return;
+  if (kind == models::Occurrence::gates_shown) {
+    show_gates(position, record.time, record.what);
+    return;
+  }
   advance_to(record.time);
   const models::PortDirectory::Port& port = directory_.ports()[position];
   const SignalId first = position * signals_of_a_port;
 
-  const models::PortQueues& queues = network_->ports(port.id.node)[port.id.port].queues();
-  std::uint64_t waiting = 0;
-  for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) waiting += queues.frames(q);
-  change(first + queued_frames, record.time, waiting);
+  change(first + queued_frames, record.time, view_.queued_frames(port.id.node, port.id.port));
 
   const auto octets = std::int64_t{models::TransmissionDetail::unpack(record.detail).octets};
-  switch (static_cast<models::Occurrence>(record.kind)) {
+  switch (kind) {
     case models::Occurrence::started:
     case models::Occurrence::resumed:
       begun_[position] = record.time;
@@ -108,12 +108,17 @@ void VcdRecorder::record(const sim::TraceRecord& record) {
       free_at_[position] = begun_[position] + port.octet_time * (models::preamble_and_sfd.count + octets + models::mcrc.count);
       falls_.push({free_at_[position], first + busy});
       break;
-    case models::Occurrence::gates_changed:
-      followed_gates_.look_at(position, record.time);
-      change(first + gates, record.time, followed_gates_.states(position, record.time));
-      break;
     default: break;
   }
+}
+
+/// What they are at the beginning is among the first values of all.
+void VcdRecorder::show_gates(std::uint32_t position, sim::TrueTime time, std::uint64_t states) {
+  const SignalId signal = position * signals_of_a_port + gates;
+  if (!declared_ && time <= time_)
+    signals_[signal].value = states;
+  else
+    set(signal, time, states);
 }
 
 std::string VcdRecorder::close(sim::TrueTime end) {
@@ -143,10 +148,6 @@ std::string VcdRecorder::save_file() const {
 /// The header, with scopes in the order of their first signal, and the values at time zero.
 void VcdRecorder::declare() {
   declared_ = true;
-  while (followed_gates_.next_time() <= time_ && time_ > sim::TrueTime()) {
-    const GateFollower::Change change = followed_gates_.pop();
-    signals_[change.position * signals_of_a_port + gates].value = followed_gates_.states(change.position, change.time);
-  }
   file_.write("$version takt $end\n$timescale 1 ps $end\n");
   // Signals of one scope stand together; a scope is opened once for each run of its signals.
   std::vector<const Signal*> order;
@@ -185,18 +186,10 @@ void VcdRecorder::declare() {
 void VcdRecorder::advance_to(sim::TrueTime time) {
   if (!declared_) declare();
   TAKT_CHECK(time >= time_, "a wave form is recorded in the order of time");
-  for (;;) {
-    const sim::TrueTime fall = falls_.empty() ? sim::TrueTime::never() : falls_.top().time;
-    const sim::TrueTime gate = followed_gates_.next_time();
-    if (std::min(fall, gate) > time) return;
-    if (fall <= gate) {
-      const Fall next = falls_.top();
-      falls_.pop();
-      if (free_at_[next.signal / signals_of_a_port] == next.time) change(next.signal, next.time, 0);  // else it was cut
-    } else {
-      const GateFollower::Change next = followed_gates_.pop();
-      change(next.position * signals_of_a_port + gates, next.time, followed_gates_.states(next.position, next.time));
-    }
+  while (!falls_.empty() && falls_.top().time <= time) {
+    const Fall next = falls_.top();
+    falls_.pop();
+    if (free_at_[next.signal / signals_of_a_port] == next.time) change(next.signal, next.time, 0);  // else it was cut
   }
 }
 

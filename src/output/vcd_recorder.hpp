@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "models/moment.hpp"
 #include "models/port_directory.hpp"
-#include "output/gate_follower.hpp"
 #include "output/streaming_file.hpp"
 #include "sim/trace.hpp"
 
@@ -38,6 +38,9 @@ class VcdRecorder final : public sim::TraceSink {
   /// Nothing before that is written. Before anything is recorded.
   void begin_at(sim::TrueTime from) { time_ = from; }
 
+  /// It is told of things later than they happen, each with its moment.
+  void look_at(const models::Moment& moment) { view_.look_at(moment); }
+  /// Gates are as gates_shown tells; until it does all are open.
   void record(const sim::TraceRecord& record) override;
 
   /// Writes what comes until `end` and gives the file its name; beside it a save file for GTKWave, FILE.gtkw, which shows all signals. Returns an empty text, or what went wrong.
@@ -65,12 +68,12 @@ class VcdRecorder final : public sim::TraceSink {
   std::string save_file() const;
   std::string unique_in(const std::string& scope, const std::string& full, std::string_view name);
   void advance_to(sim::TrueTime time);
+  void show_gates(std::uint32_t position, sim::TrueTime time, std::uint64_t states);
   void change(SignalId signal, sim::TrueTime time, std::uint64_t value);
   void write_value(const Signal& signal);
 
-  const models::Network* network_;
+  models::View view_;
   models::PortDirectory directory_;
-  GateFollower followed_gates_;
   std::string path_;
   StreamingFile file_;
   std::vector<Signal> signals_;  // signals_of_a_port for each port, then the added ones

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "output/playback.hpp"
 #include "tests/output/recording.hpp"
 
 namespace takt::output {
@@ -132,20 +133,28 @@ TEST(VcdRecorder, FurtherSignalsAndGates) {
   NetworkRun run(plant.plan);
   VcdRecorder recorder(*run.network, folder / "waves.vcd");
   const auto state = recorder.add_signal("programs\ntrajectory", "robot state", 4, 11);
-  run.simulation.set_trace(&recorder);
+  Playback playback(recorder);
+  recorder.look_at(playback.moment());
+  Tape tape(*run.network, 0, {.gates = true});
+  playback.add(tape);
+  run.simulation.set_trace(&tape);
   models::GateConfig gates;
   gates.admin_control_list = {{models::GateOperation::set_gate_states, 0x7F, 20_us}, {models::GateOperation::set_gate_states, 0x80, 20_us}};
   gates.admin_cycle_time = 40_us;
   run.network->request_gates(plant.sw, 1, gates);
-  EXPECT_THROW(recorder.add_signal("late", "x", 1, 0), sim::InvariantBroken);
+  playback.play(at(0_us));
+  playback.play(at(20_us));
   recorder.set(state, at(20_us), 12);
+  EXPECT_THROW(recorder.add_signal("late", "x", 1, 0), sim::InvariantBroken);
   recorder.set(state, at(30_us), 12);  // no change
+  playback.play(at(40_us));
   recorder.set(state, at(40_us), 13);
   EXPECT_THROW(recorder.set(state, at(39_us), 14), sim::InvariantBroken);
+  playback.play(at(60_us));
   ASSERT_EQ(recorder.close(at(60_us)), "");
   const Dump dump = parse(content_of(folder / "waves.vcd"));
   using Changes = std::vector<std::pair<std::int64_t, std::uint64_t>>;
-  EXPECT_EQ(dump.waves.at("sw.port1_to_b.gates").changes, (Changes{{0, 0xFF}, {0, 0x7F}, {20'000'000, 0x80}, {40'000'000, 0x7F}, {60'000'000, 0x80}}));
+  EXPECT_EQ(dump.waves.at("sw.port1_to_b.gates").changes, (Changes{{0, 0x7F}, {20'000'000, 0x80}, {40'000'000, 0x7F}, {60'000'000, 0x80}}));
   EXPECT_EQ(dump.waves.at("programs.trajectory.robot_state").changes, (Changes{{0, 11}, {20'000'000, 12}, {40'000'000, 13}}));
 }
 

@@ -67,6 +67,14 @@ std::uint64_t DividedRun::event_count() const {
   return sum;
 }
 
+std::vector<Run*> DividedRun::runs() {
+  std::vector<Run*> runs;
+  for (const auto& each : parts_) runs.push_back(&each->run);
+  return runs;
+}
+
+void DividedRun::watch(std::size_t part, models::CrossingWatcher* watcher) { parts_[part]->part.set_watcher(watcher); }
+
 void DividedRun::advance(sim::TrueTime until) {
   until = std::min(until, end());
   std::atomic<bool> stop = false;

@@ -22,6 +22,12 @@ class DividedRun {
   sim::TrueTime end() const;
   std::uint64_t event_count() const;
 
+  // For who records the run: before anything has happened.
+  /// The parts, in their order. Programs and applications act in the first one.
+  std::vector<Run*> runs();
+  /// Tells who follows frames over the cuts what that part sends and takes, on its thread; null: nobody.
+  void watch(std::size_t part, models::CrossingWatcher* watcher);
+
   /// All parts go on until `until`, on a thread each. What one of them throws comes out here; the run is over then.
   void advance(sim::TrueTime until);
 

@@ -12,11 +12,12 @@
 #include "output/frame_series.hpp"
 #include "output/hop_series.hpp"
 #include "output/pcap_recorder.hpp"
+#include "output/playback.hpp"
 #include "output/timeline_recorder.hpp"
 #include "output/vcd_recorder.hpp"
-#include "scenario/run/run.hpp"
+#include "scenario/run/divided_run.hpp"
 
-namespace takt::cli {
+namespace takt::output {
 
 struct RecordingOptions {
   std::vector<std::string> pcap;   ///< "all", "node" (all its ports), "node:port" or "stream:name"
@@ -30,18 +31,21 @@ struct RecordingOptions {
   bool is_wanted() const { return !pcap.empty() || timeline || waves || clocks || frames; }
 };
 
-/// Hangs on a run from before its first event to its end. Recording changes no digest.
+/// Hangs on a run from before its first event to its end. Recording changes no digest, and the files are the same for every division of the run.
 class Recording {
  public:
   /// Reports unknown ports and streams to `diagnostics`; then nothing is recorded and nothing was written.
   Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics);
+  Recording(const RecordingOptions& options, const std::string& folder, scenario::DividedRun& run, json::Diagnostics& diagnostics);
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
   ~Recording();
 
   /// Opens the files, whose folder is made if it is not there. An empty text, or what went wrong.
   [[nodiscard]] std::string open();
-  /// Writes the states of Programs into the time line and closes the files. An empty text, or what went wrong.
+  /// Writes what has happened up to and including `now`, to which the run has come. What is recorded until then is kept in memory, so this is to be called often.
+  void write_until(sim::TrueTime now);
+  /// Writes the states of Programs into the time line and closes the files. An empty text, or what went wrong. Precondition: of a divided run, all has been gathered.
   [[nodiscard]] std::string close();
   /// The names of the files, within the folder.
   std::vector<std::string> files() const;
@@ -57,15 +61,18 @@ class Recording {
   struct Ways final : explain::WaySink {
     bool wants(models::StreamIndex stream) const override { return selection.has(stream); }
     void ended(const explain::Way& way) override;
-    output::Selection selection;
-    output::TimelineRecorder* timeline = nullptr;
-    output::HopSeries* hops = nullptr;
+    Selection selection;
+    TimelineRecorder* timeline = nullptr;
+    HopSeries* hops = nullptr;
   };
   /// Shows the states of Programs as signals, as they change.
   class ProgramWaves;
 
+  Recording(const RecordingOptions& options, const std::string& folder, std::vector<scenario::Run*> runs, scenario::DividedRun* divided, json::Diagnostics& diagnostics);
+  void make_tapes();
   void select(json::Diagnostics& diagnostics);
-  void add_sink(sim::TraceSink& sink);
+  /// The sink is told of records of these kinds.
+  void add_sink(sim::TraceSink& sink, std::initializer_list<models::Occurrence> kinds);
   void select_capture(const std::string& text, json::Diagnostics& diagnostics);
   std::optional<models::StreamIndex> find_stream(const std::string& option, const std::string& name, json::Diagnostics& diagnostics) const;
   void write_states();
@@ -74,19 +81,24 @@ class Recording {
 
   RecordingOptions options_;
   std::string folder_;
-  scenario::Run* run_;
+  std::vector<scenario::Run*> runs_;     ///< the parts
+  scenario::Run* run_;                   ///< the first of them, in which Programs act, and which has all when all is over
+  scenario::DividedRun* divided_;        ///< null: there is one part
   std::vector<Capture> captures_;
-  output::FanOut sinks_;
-  std::unique_ptr<output::PcapRecorder> pcap_;
-  std::unique_ptr<output::TimelineRecorder> timeline_;
-  std::unique_ptr<output::VcdRecorder> waves_;
-  std::unique_ptr<output::ClockSeries> clocks_;
-  std::unique_ptr<output::FrameSeries> frames_;
-  std::unique_ptr<output::HopSeries> hops_;
+  FanOut sinks_;
+  Playback playback_{sinks_};
+  TapeWants wants_;
+  std::vector<std::unique_ptr<Tape>> tapes_;   // by part
+  std::unique_ptr<PcapRecorder> pcap_;
+  std::unique_ptr<TimelineRecorder> timeline_;
+  std::unique_ptr<VcdRecorder> waves_;
+  std::unique_ptr<ClockSeries> clocks_;
+  std::unique_ptr<FrameSeries> frames_;
+  std::unique_ptr<HopSeries> hops_;
   Ways ways_;
   std::unique_ptr<explain::WayRecorder> way_recorder_;
   std::unique_ptr<ProgramWaves> program_waves_;
-  std::vector<std::unique_ptr<output::SelectedSink>> selected_;
+  std::vector<std::unique_ptr<SelectedSink>> selected_;
 };
 
-}  // namespace takt::cli
+}  // namespace takt::output

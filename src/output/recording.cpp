@@ -1,4 +1,4 @@
-#include "cli/recording.hpp"
+#include "output/recording.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -6,20 +6,26 @@
 #include "json/quantity.hpp"
 #include "output/program_states.hpp"
 
-namespace takt::cli {
+namespace takt::output {
 
-Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics)
-    : options_(options), folder_(folder), run_(&run) {
+using models::Occurrence;
+
+Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::Run& run, json::Diagnostics& diagnostics) : Recording(options, folder, {&run}, nullptr, diagnostics) {}
+
+Recording::Recording(const RecordingOptions& options, const std::string& folder, scenario::DividedRun& run, json::Diagnostics& diagnostics) : Recording(options, folder, run.runs(), &run, diagnostics) {}
+
+Recording::Recording(const RecordingOptions& options, const std::string& folder, std::vector<scenario::Run*> runs, scenario::DividedRun* divided, json::Diagnostics& diagnostics)
+    : options_(options), folder_(folder), runs_(std::move(runs)), run_(runs_.front()), divided_(divided) {
   for (const std::string& text : options.pcap) select_capture(text, diagnostics);
   select(diagnostics);
-  if (options.clocks && run.clocks() == nullptr)
+  if (options.clocks && run_->clocks() == nullptr)
     diagnostics.error({"--clocks", 0, 0, ""}, "no clocks to record", {"a scenario without gPTP", "\"gptp\" in \"clocks\""});
 }
 
 /// Each state is the number that Programs publish: 11 Halted, 12 Ready, 13 Running, 14 Suspended, 15 Halted.INIT; 0: dead, or nobody.
 class Recording::ProgramWaves final : public sim::TraceSink {
  public:
-  ProgramWaves(const scenario::Run& run, output::VcdRecorder& waves, sim::TrueTime from) : run_(run), waves_(waves), from_(from) {
+  ProgramWaves(const scenario::Run& run, VcdRecorder& waves, sim::TrueTime from) : run_(run), waves_(waves), from_(from) {
     for (std::size_t p = 0; p < run.resolved().programs.size(); ++p) {
       const scenario::ResolvedProgram& program = run.resolved().programs[p];
       Shown shown;
@@ -29,17 +35,18 @@ class Recording::ProgramWaves final : public sim::TraceSink {
     }
   }
 
-  /// What has changed since the last record.
-  void record(const sim::TraceRecord&) override {
+  /// What has changed since the last record. The monitors know more: the run is ahead of what is told.
+  void record(const sim::TraceRecord& record) override { show_until(record.time); }
+  void show_until(sim::TrueTime now) {
     changes_.clear();
     for (std::size_t p = 0; p < shown_.size(); ++p) {
       Shown& shown = shown_[p];
       const scenario::ProgramMonitor& monitor = run_.monitor(p);
-      for (; shown.states < monitor.history().size(); ++shown.states) {
+      for (; shown.states < monitor.history().size() && monitor.history()[shown.states].time <= now; ++shown.states) {
         const scenario::StateRecord& state = monitor.history()[shown.states];
         changes_.push_back({state.time, shown.signals[state.participant], static_cast<std::uint64_t>(state.change.to)});
       }
-      for (; shown.lives < monitor.lives().size(); ++shown.lives) {
+      for (; shown.lives < monitor.lives().size() && monitor.lives()[shown.lives].time <= now; ++shown.lives) {
         const scenario::LifeRecord& life = monitor.lives()[shown.lives];
         changes_.push_back({life.time, shown.signals[life.participant], life.is_back ? static_cast<std::uint64_t>(handshake::PublishedState::Halted) : 0});
       }
@@ -51,22 +58,25 @@ class Recording::ProgramWaves final : public sim::TraceSink {
  private:
   struct Change {
     sim::TrueTime time;
-    output::VcdRecorder::SignalId signal = 0;
+    VcdRecorder::SignalId signal = 0;
     std::uint64_t value = 0;
   };
   struct Shown {
-    std::vector<output::VcdRecorder::SignalId> signals;   // by participant
+    std::vector<VcdRecorder::SignalId> signals;   // by participant
     std::size_t states = 0;                               // that have been shown
     std::size_t lives = 0;
   };
   const scenario::Run& run_;
-  output::VcdRecorder& waves_;
+  VcdRecorder& waves_;
   sim::TrueTime from_;
   std::vector<Shown> shown_;
   std::vector<Change> changes_;   // kept for its room
 };
 
-Recording::~Recording() { run_->simulation().set_trace(nullptr); }
+Recording::~Recording() {
+  for (scenario::Run* const run : runs_) run->simulation().set_trace(nullptr);
+  for (std::size_t part = 0; divided_ != nullptr && part < runs_.size(); ++part) divided_->watch(part, nullptr);
+}
 
 void Recording::Ways::ended(const explain::Way& way) {
   if (timeline != nullptr && selection.has(way)) timeline->add_way(way);
@@ -81,7 +91,7 @@ void Recording::select(json::Diagnostics& diagnostics) {
     else
       diagnostics.error({option, 0, 0, ""}, "not a time", {json::quote(*text), "a duration since the start, such as \"1500ms\""});
   };
-  output::Selection& selection = ways_.selection;
+  Selection& selection = ways_.selection;
   time("--from", options_.from, selection.from);
   time("--to", options_.to, selection.to);
   if (selection.to < selection.from) diagnostics.error({"--to", 0, 0, ""}, "an end before the beginning", {json::quote(*options_.to), "a time after that of --from"});
@@ -100,12 +110,14 @@ std::optional<models::StreamIndex> Recording::find_stream(const std::string& opt
 }
 
 /// Each recorder hears what is selected.
-void Recording::add_sink(sim::TraceSink& sink) {
+void Recording::add_sink(sim::TraceSink& sink, std::initializer_list<models::Occurrence> kinds) {
+  for (const models::Occurrence kind : kinds) wants_.kinds |= TapeWants::bit_of(kind);
   if (ways_.selection.is_all()) {
     sinks_.add(sink);
     return;
   }
-  selected_.push_back(std::make_unique<output::SelectedSink>(run_->network(), ways_.selection, sink));
+  selected_.push_back(std::make_unique<SelectedSink>(run_->network(), ways_.selection, sink));
+  selected_.back()->look_at(playback_.moment());
   sinks_.add(*selected_.back());
 }
 
@@ -152,47 +164,74 @@ std::string Recording::open() {
   if (error) return folder_ + ": " + error.message();
   const std::filesystem::path folder(folder_);
   if (!captures_.empty()) {
-    pcap_ = std::make_unique<output::PcapRecorder>(run_->network());
+    pcap_ = std::make_unique<PcapRecorder>(run_->network());
     for (const Capture& capture : captures_) {
       const std::string path = (folder / capture.file).string();
       if (std::string problem = capture.stream ? pcap_->add_stream(path, *capture.stream) : pcap_->add(path, capture.ports); !problem.empty()) return problem;
     }
-    add_sink(*pcap_);
+    pcap_->look_at(playback_.moment());
+    wants_.payloads = true;
+    add_sink(*pcap_, {Occurrence::started});
   }
   if (options_.timeline) {
-    timeline_ = std::make_unique<output::TimelineRecorder>(run_->network(), (folder / "timeline.json").string(), ways_.selection.from, ways_.selection.to);
-    add_sink(*timeline_);
+    timeline_ = std::make_unique<TimelineRecorder>(run_->network(), (folder / "timeline.json").string(), ways_.selection.from, ways_.selection.to);
+    timeline_->look_at(playback_.moment());
+    wants_.gates = true;
+    add_sink(*timeline_, {Occurrence::started, Occurrence::resumed, Occurrence::cut, Occurrence::drop});
   }
   if (options_.waves) {
-    waves_ = std::make_unique<output::VcdRecorder>(run_->network(), (folder / "waves.vcd").string());
+    waves_ = std::make_unique<VcdRecorder>(run_->network(), (folder / "waves.vcd").string());
     for (const scenario::ResolvedSignal& signal : run_->resolved().signals) {
       const scenario::ResolvedApplication& application = run_->resolved().applications[signal.application];
       waves_->add_output(run_->resolved().topology.nodes[application.node.value].name + "\n" + application.name, signal.name);
     }
     waves_->begin_at(ways_.selection.from);
+    waves_->look_at(playback_.moment());
+    wants_.gates = wants_.queues = true;
     program_waves_ = std::make_unique<ProgramWaves>(*run_, *waves_, ways_.selection.from);
-    add_sink(*program_waves_);
-    add_sink(*waves_);
+    add_sink(*program_waves_, {});
+    add_sink(*waves_, {Occurrence::enqueued, Occurrence::dequeued, Occurrence::started, Occurrence::resumed, Occurrence::cut, Occurrence::drop, Occurrence::output_changed});
   }
   if (options_.clocks) {
-    clocks_ = std::make_unique<output::ClockSeries>(run_->network(), (folder / "clocks.csv").string());
-    run_->set_clock_sink(clocks_.get());
+    clocks_ = std::make_unique<ClockSeries>(run_->network(), (folder / "clocks.csv").string());
+    for (scenario::Run* const run : runs_) run->set_clock_sink(clocks_.get());
   }
   if (options_.frames) {
-    frames_ = std::make_unique<output::FrameSeries>(run_->network(), (folder / "frames.csv").string());
-    add_sink(*frames_);
-    hops_ = std::make_unique<output::HopSeries>(run_->network(), ways_.selection, (folder / "hops.csv").string());
+    frames_ = std::make_unique<FrameSeries>(run_->network(), (folder / "frames.csv").string());
+    frames_->look_at(playback_.moment());
+    add_sink(*frames_, {Occurrence::received, Occurrence::drop});
+    hops_ = std::make_unique<HopSeries>(run_->network(), ways_.selection, (folder / "hops.csv").string());
   }
-  if (!timeline_ && !hops_) {
-    run_->simulation().set_trace(&sinks_);
-    return {};
+  if (timeline_ || hops_) {
+    ways_.timeline = timeline_.get();
+    ways_.hops = hops_.get();
+    way_recorder_ = std::make_unique<explain::WayRecorder>(run_->network(), ways_);
+    way_recorder_->look_at(playback_.moment());
+    wants_.ways = true;
+    sinks_.add(*way_recorder_);
   }
-  ways_.timeline = timeline_.get();
-  ways_.hops = hops_.get();
-  way_recorder_ = std::make_unique<explain::WayRecorder>(run_->network(), ways_);
-  sinks_.add(*way_recorder_);
-  run_->explain_to(&sinks_);
+  make_tapes();
   return {};
+}
+
+/// Each part hears of all that somebody wants to know.
+void Recording::make_tapes() {
+  if (sinks_.empty()) return;
+  wants_.from = ways_.selection.from;
+  wants_.to = ways_.selection.to;
+  for (std::uint32_t part = 0; part < runs_.size(); ++part) {
+    tapes_.push_back(std::make_unique<Tape>(runs_[part]->network(), part, wants_));
+    playback_.add(*tapes_.back());
+    if (wants_.ways)
+      runs_[part]->explain_to(tapes_.back().get());
+    else
+      runs_[part]->simulation().set_trace(tapes_.back().get());
+    if (wants_.ways && divided_ != nullptr) divided_->watch(part, tapes_.back().get());
+  }
+}
+
+void Recording::write_until(sim::TrueTime now) {
+  if (!tapes_.empty()) playback_.play(now);
 }
 
 std::vector<std::string> Recording::files() const {
@@ -209,18 +248,22 @@ std::vector<std::string> Recording::files() const {
 }
 
 std::string Recording::close() {
-  run_->simulation().set_trace(nullptr);
-  if (way_recorder_) way_recorder_->finish(run_->simulation().now());
+  const sim::TrueTime now = run_->simulation().now();
+  write_until(now);
+  for (scenario::Run* const run : runs_) run->simulation().set_trace(nullptr);
+  if (way_recorder_) way_recorder_->finish(now);
   std::string problem;
   if (pcap_) problem = pcap_->close();
   if (timeline_) {
     write_states();
-    if (std::string other = timeline_->close(run_->simulation().now()); problem.empty()) problem = std::move(other);
+    if (std::string other = timeline_->close(now); problem.empty()) problem = std::move(other);
   }
-  if (waves_)
-    if (std::string other = waves_->close(run_->simulation().now()); problem.empty()) problem = std::move(other);
+  if (waves_) {
+    if (now >= ways_.selection.from) program_waves_->show_until(std::min(now, ways_.selection.to));
+    if (std::string other = waves_->close(now); problem.empty()) problem = std::move(other);
+  }
   if (clocks_) {
-    run_->set_clock_sink(nullptr);
+    for (scenario::Run* const run : runs_) run->set_clock_sink(nullptr);
     if (std::string other = clocks_->close(); problem.empty()) problem = std::move(other);
   }
   if (frames_)
@@ -264,7 +307,7 @@ void Recording::write_states() {
     const scenario::ResolvedProgram& program = run_->resolved().programs[p];
     for (std::size_t i = 0; i < program.participant_names.size(); ++i) {
       const auto track = timeline_->add_state_track("program " + program.name, program.participant_names[i]);
-      for (const auto& [time, state] : output::states_of(run_->monitor(p), i)) timeline_->change_state(track, time, state);
+      for (const auto& [time, state] : states_of(run_->monitor(p), i)) timeline_->change_state(track, time, state);
     }
     write_reactions("program " + program.name, run_->monitor(p));
     if (!run_->monitor(p).faults().empty()) write_faults(program.name, run_->monitor(p).faults());
@@ -278,4 +321,4 @@ void Recording::write_states() {
   }
 }
 
-}  // namespace takt::cli
+}  // namespace takt::output

@@ -1,0 +1,127 @@
+// What is recorded of a run is the same, octet for octet, on one thread and divided.
+#include "output/recording.hpp"
+
+#include <array>
+
+#include "tests/output/recorded_run.hpp"
+#include "tests/scenario/support.hpp"
+
+namespace takt::output {
+namespace {
+
+using namespace test;
+using scenario::Division;
+using scenario::Resolved;
+using scenario::test::shipped;
+using scenario::test::shipped_names;
+using scenario::test::sound;
+
+/// A mesh of switches with two hosts each; every host sends to another one, so often that ports are busy, and every third to three, so that one record is shared at many nodes at once.
+std::string plant(const std::string& duration, const std::string& more = {}, const std::string& of_switches = {}, const std::string& every = "250us") {
+  constexpr unsigned hosts = 32;
+  std::string text = R"({"name": "plant", "duration": ")" + duration + R"(", "network": {"generate": [{"topology": "mesh", "rows": 4, "columns": 4,
+    "hosts_per_switch": 2, "rate": "100Mbps", "length": "10m", "forwarding_delay": "5us")" + of_switches + R"(}]}, "streams": [)";
+  const auto host = [](unsigned h) { return "\"h" + std::to_string(h % hosts + 1) + "\""; };
+  for (unsigned h = 0; h < hosts; ++h)
+    text += (h > 0 ? "," : "") + std::string(R"({"name": "s)") + std::to_string(h + 1) + R"(", "from": )" + host(h) + R"(, "to": )" +
+            (h % 3 == 0 ? "[" + host(h + 7) + ", " + host(h + 8) + ", " + host(h + 20) + "]" : host(h + 11)) + R"(, "payload": "200B", "pcp": )" + std::to_string(h % 4) +
+            R"(, "every": ")" + every + R"(", "offset": ")" + std::to_string(h % 4 * 10) + R"(us"})";
+  return text + "]" + more + "}";
+}
+
+// All at once in many nodes: what is recorded of an instant has an order that no division has a part in.
+TEST(Recording, IsTheSameForEveryDivision) {
+  const auto resolved = sound(plant("2ms"));
+  const RecordingOptions all = all_of(*resolved);
+  const Files expected = recorded_whole(*resolved, all);
+  EXPECT_EQ(expected.size(), 6u);
+  for (const char* const name : {"all.pcapng", "frames.csv", "hops.csv", "timeline.json", "waves.vcd"}) EXPECT_GT(expected.at(name).size(), 10'000u) << name;
+  EXPECT_NE(expected.at("frames.csv").find("under way"), std::string::npos);
+  std::size_t most = 0;
+  for (const unsigned parts : {1u, 2u, 3u, 4u, 8u}) {
+    const Division division = scenario::divide_at_random(*resolved, parts, parts);
+    most = std::max<std::size_t>(most, division.parts);
+    EXPECT_EQ(difference(expected, recorded_divided(*resolved, division, all)), "") << division.parts << " parts";
+  }
+  EXPECT_GE(most, 7u);
+}
+
+TEST(Recording, IsTheSameHoweverOftenItIsWritten) {
+  const auto resolved = sound(plant("1ms"));
+  const RecordingOptions all = all_of(*resolved);
+  const Files expected = recorded_whole(*resolved, all);
+  for (const std::uint64_t events : {1u, 100u, 5'000u}) EXPECT_EQ(difference(expected, recorded_whole(*resolved, all, 0, events)), "") << events;
+  const Division division = scenario::divide_at_random(*resolved, 3, 7);
+  for (const int slices : {1, 2, 50, 999}) EXPECT_EQ(difference(expected, recorded_divided(*resolved, division, all, 0, slices)), "") << slices;
+}
+
+TEST(Recording, IsTheSameForEveryDivisionUnderAnotherOrderOfEqualEvents) {
+  const auto resolved = sound(plant("1ms"));
+  const RecordingOptions all = all_of(*resolved);
+  const Files expected = recorded_whole(*resolved, all, 0xDEAD'BEEF);
+  for (const unsigned parts : {2u, 4u}) EXPECT_EQ(difference(expected, recorded_divided(*resolved, scenario::divide_at_random(*resolved, parts, parts), all, 0xDEAD'BEEF)), "") << parts;
+}
+
+TEST(Recording, IsTheSameWithFaults) {
+  const auto resolved = sound(plant("2ms", R"(, "faults": [{"kind": "link-down", "link": ["sw6", "sw7"], "at": "500us", "for": "500us"},
+      {"kind": "crash", "node": "sw11", "at": "700us", "for": "500us"}, {"kind": "frame-errors", "link": ["sw2", "sw3"], "loss": 0.1, "duplication": 0.1}])"));
+  const RecordingOptions all = all_of(*resolved);
+  const Files expected = recorded_whole(*resolved, all);
+  for (const char* const reason : {"link_down", "link_loss"}) EXPECT_NE(expected.at("frames.csv").find(reason), std::string::npos) << reason;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) EXPECT_EQ(difference(expected, recorded_divided(*resolved, scenario::divide_at_random(*resolved, 4, seed), all)), "") << seed;
+}
+
+// Gates go by clocks that servos trim and step: when they change depends on no other node, and neither does what is recorded.
+TEST(Recording, IsTheSameWithGatesByClocksThatAreSynchronised) {
+  const std::string clocks = R"(, "clocks": {"all": {"offset": {"from": "-100ppm", "to": "100ppm"}}, "gptp": {"report_every": "700us", "log_sync_interval": -7, "log_pdelay_interval": -7, "log_announce_interval": -7}},
+      "faults": [{"kind": "crash", "node": "sw1", "at": "20ms", "for": "20ms"}, {"kind": "stuck-gate", "node": "sw6", "to": "sw7", "class": 0, "state": "open", "at": "30ms", "for": "5ms"}])";
+  const std::string gates = R"(, "egress": [{"gates": {"entries": [{"open": [0, 1, 2, 3], "for": "300us"}, {"open": [4, 5, 6, 7], "for": "200us"}]}}])";
+  const auto resolved = sound(plant("60ms", clocks, gates, "3ms"));
+  const RecordingOptions all = all_of(*resolved);
+  const Files expected = recorded_whole(*resolved, all);
+  EXPECT_GT(expected.at("clocks.csv").size(), 10'000u);
+  EXPECT_NE(expected.at("timeline.json").find("open gates"), std::string::npos);
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    const Division division = scenario::divide_at_random(*resolved, 3, seed);
+    EXPECT_TRUE(division.is_divided());
+    EXPECT_EQ(difference(expected, recorded_divided(*resolved, division, all)), "") << seed;
+  }
+}
+
+TEST(Recording, IsTheSameOfWhatIsSelected) {
+  const auto resolved = sound(plant("2ms"));
+  std::array<RecordingOptions, 4> each;
+  for (RecordingOptions& options : each) {
+    options = all_of(*resolved);
+    options.from = "600us";
+    options.to = "1300us";
+  }
+  each[1].streams = {"s1", "s4"};
+  each[2] = {};
+  each[2].pcap = {"sw6:1", "h3", "stream:s1"};
+  each[3].timeline = each[3].frames = false;
+  for (const RecordingOptions& options : each) {
+    const Files expected = recorded_whole(*resolved, options);
+    for (std::uint64_t seed = 1; seed <= 2; ++seed)
+      EXPECT_EQ(difference(expected, recorded_divided(*resolved, scenario::divide_at_random(*resolved, 4, seed), options, 0, 9)), "") << &options - each.data();
+  }
+}
+
+// Every shipped scenario, in its beginning, with parts as they come.
+TEST(Recording, IsTheSameForEveryDivisionOfWhatIsShipped) {
+  std::size_t really_divided = 0;
+  for (const std::string& name : shipped_names()) {
+    if (name == "ring-1000") continue;   // a thousand nodes
+    const auto resolved = shipped(name, "4ms");
+    const unsigned parts = really_divided % 2 == 0 ? 2 : 5;
+    const Division division = scenario::divide_at_random(*resolved, parts, parts * 100);
+    if (!division.is_divided()) continue;
+    ++really_divided;
+    const RecordingOptions all = all_of(*resolved);
+    EXPECT_EQ(difference(recorded_whole(*resolved, all), recorded_divided(*resolved, division, all, 0, 2)), "") << name << " in " << division.parts << " parts";
+  }
+  EXPECT_GT(really_divided, 20u);
+}
+
+}  // namespace
+}  // namespace takt::output

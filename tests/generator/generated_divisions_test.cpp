@@ -1,4 +1,4 @@
-// Random scenarios on 2, 3, 4 and 8 threads, divided at random, beside one thread.
+// Random scenarios on 2, 3, 4 and 8 threads, divided at random, beside one thread: results, and all that can be recorded.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,11 +8,15 @@
 #include "results/result_json.hpp"
 #include "scenario/run/divided_run.hpp"
 #include "tests/generator/generated.hpp"
+#include "tests/output/recorded_run.hpp"
 
 namespace takt::generator {
 namespace {
 
 std::string result_of(const scenario::Run& run) { return results::run_json(evaluation::evaluate(run, false)); }
+
+/// What makes recordings of some hundred megabytes is left to others.
+constexpr std::uint64_t most_events_to_record = 300'000;
 
 // TAKT_DIVIDED=1000: so many scenarios of more than one part instead.
 TEST(GeneratedScenarios, HaveTheResultOfOneThread) {
@@ -20,7 +24,7 @@ TEST(GeneratedScenarios, HaveTheResultOfOneThread) {
   const std::uint64_t count = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 12;
   constexpr std::array<unsigned, 4> threads = {2, 3, 4, 8};
   std::array<std::uint64_t, 9> runs_in_parts = {};
-  std::uint64_t divided = 0;
+  std::uint64_t divided = 0, recorded = 0;
   for (std::uint64_t number = 100'000; divided < count; ++number) {
     const Generated made = generate(number);
     ASSERT_TRUE(made.resolved) << number << ": " << made.problem;
@@ -41,8 +45,17 @@ TEST(GeneratedScenarios, HaveTheResultOfOneThread) {
       if (is_shuffled) continue;
       ASSERT_EQ(result_of(run.gathered()), expected) << "takt_soak --show " << number << ", " << division.parts << " parts";
     }
+    if (whole.simulation().event_count() > most_events_to_record) continue;
+    ++recorded;
+    const std::uint64_t shuffle = number % 3 == 0 ? number : 0;
+    const scenario::Division division = scenario::divide_at_random(resolved, threads[number % threads.size()], number + 99);
+    const output::RecordingOptions all = output::test::all_of(resolved);
+    const output::test::Files files = output::test::recorded_whole(resolved, all, shuffle);
+    ASSERT_EQ(files.at("digest"), std::to_string(whole.simulation().digest().value())) << "takt_soak --show " << number << ", recorded";
+    ASSERT_EQ(output::test::difference(files, output::test::recorded_divided(resolved, division, all, shuffle)), "") << "takt_soak --show " << number << ", " << division.parts << " parts, recorded";
   }
   // Most networks have few nodes that may be apart.
+  EXPECT_GT(recorded, count / 2);
   EXPECT_GT(runs_in_parts[2] + runs_in_parts[3] + runs_in_parts[4], count);
   for (unsigned parts = 1; parts <= 8; ++parts) RecordProperty("in_" + std::to_string(parts) + "_parts", std::to_string(runs_in_parts[parts]));
 }

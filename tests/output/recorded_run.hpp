@@ -27,9 +27,9 @@ inline RecordingOptions all_of(const scenario::Resolved& resolved) {
   return options;
 }
 
-/// What Recording::files() are after all has been written, which goes away then.
-inline Files take_files(const Recording& recording, const std::filesystem::path& folder) {
-  Files files;
+/// What Recording::files() are after all has been written, which goes away then; and the digest of the run.
+inline Files take_files(const Recording& recording, const std::filesystem::path& folder, const scenario::Run& run) {
+  Files files{{"digest", std::to_string(run.simulation().digest().value())}};
   for (const std::string& name : recording.files()) {
     std::ifstream file(folder / name, std::ios::binary);
     EXPECT_TRUE(file) << name;
@@ -52,7 +52,7 @@ inline Files recorded_whole(const scenario::Resolved& resolved, const RecordingO
   EXPECT_EQ(recording.open(), "");
   while (!run.advance(events_a_slice)) recording.write_until(run.simulation().now());
   EXPECT_EQ(recording.close(), "");
-  return take_files(recording, folder_of_recordings());
+  return take_files(recording, folder_of_recordings(), run);
 }
 
 /// The same of a divided one, written so often.
@@ -66,9 +66,9 @@ inline Files recorded_divided(const scenario::Resolved& resolved, const scenario
     run.advance(slice == slices ? run.end() : sim::TrueTime::from_ps(run.end().ps() / slices * slice));
     recording.write_until(run.now());
   }
-  run.gathered();
+  const scenario::Run& gathered = run.gathered();
   EXPECT_EQ(recording.close(), "");
-  return take_files(recording, folder_of_recordings());
+  return take_files(recording, folder_of_recordings(), gathered);
 }
 
 /// Empty, or which files differ, and where.

@@ -34,7 +34,7 @@ TEST(Recording, IsTheSameForEveryDivision) {
   const auto resolved = sound(plant("2ms"));
   const RecordingOptions all = all_of(*resolved);
   const Files expected = recorded_whole(*resolved, all);
-  EXPECT_EQ(expected.size(), 6u);
+  EXPECT_EQ(expected.size(), 7u);
   for (const char* const name : {"all.pcapng", "frames.csv", "hops.csv", "timeline.json", "waves.vcd"}) EXPECT_GT(expected.at(name).size(), 10'000u) << name;
   EXPECT_NE(expected.at("frames.csv").find("under way"), std::string::npos);
   std::size_t most = 0;

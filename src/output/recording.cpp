@@ -111,7 +111,7 @@ std::optional<models::StreamIndex> Recording::find_stream(const std::string& opt
 
 /// Each recorder hears what is selected.
 void Recording::add_sink(sim::TraceSink& sink, std::initializer_list<models::Occurrence> kinds) {
-  for (const models::Occurrence kind : kinds) wants_.kinds |= TapeWants::bit_of(kind);
+  wants_.kinds |= TapeWants::bits_of(kinds);
   if (ways_.selection.is_all()) {
     sinks_.add(sink);
     return;

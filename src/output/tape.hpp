@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -24,7 +25,11 @@ struct TapeWants {
   sim::TrueTime from = {};   ///< records outside of this stretch are left out, unless ways are wanted
   sim::TrueTime to = sim::TrueTime::never();
 
-  static constexpr std::uint32_t bit_of(models::Occurrence kind) { return 1U << static_cast<std::uint32_t>(kind); }
+  static constexpr std::uint32_t bits_of(std::initializer_list<models::Occurrence> kinds) {
+    std::uint32_t bits = 0;
+    for (const models::Occurrence kind : kinds) bits |= 1U << static_cast<std::uint32_t>(kind);
+    return bits;
+  }
 };
 
 /// Something on a tape, with all that recorders need to know of it, since the network goes on meanwhile.

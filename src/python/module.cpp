@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "analysis/bounds.hpp"
 #include "analysis/report.hpp"
@@ -18,6 +19,7 @@
 #include "json/quantity.hpp"
 #include "json/record.hpp"
 #include "output/frame_columns.hpp"
+#include "output/playback.hpp"
 #include "output/text_report.hpp"
 #include "python/common.hpp"
 #include "report/replay.hpp"
@@ -69,17 +71,29 @@ Run run(const Scenario& scenario, bool keep_frames, const Progress& progress) {
   {
     const py::gil_scoped_release unlocked;
     scenario::Run live(*scenario.resolved);
+    std::optional<output::Playback> playback;   // so that rows have the order that files have
+    std::optional<output::Tape> tape;
+    const auto told = [&] {
+      if (playback) playback->play(live.simulation().now());
+    };
     if (keep_frames) {
       done.frames = std::make_shared<output::FrameColumns>(live.network());
-      live.simulation().set_trace(done.frames.get());
+      playback.emplace(*done.frames);
+      done.frames->look_at(playback->moment());
+      tape.emplace(live.network(), 0, output::TapeWants{.kinds = output::TapeWants::bits_of({models::Occurrence::received, models::Occurrence::drop})});
+      playback->add(*tape);
+      live.simulation().set_trace(&*tape);
       for (const models::Stream& stream : live.network().traffic().streams()) done.streams.push_back(stream.name);
       for (const auto& node : live.network().plan().nodes) done.nodes.push_back(node.name);
     }
     const double wanted = static_cast<double>(live.end().since_start().ps());
     constexpr std::uint64_t events_a_slice = 100'000;
     bool is_complete = false;
-    while (!(is_complete = live.advance(events_a_slice)))
+    while (!(is_complete = live.advance(events_a_slice))) {
+      told();
       if (!watch.keep_going(static_cast<double>(live.simulation().now().since_start().ps()) / wanted)) break;
+    }
+    told();
     if (is_complete && done.frames) done.frames->close();
     live.simulation().set_trace(nullptr);
     done.result = evaluation::evaluate(live, !is_complete);

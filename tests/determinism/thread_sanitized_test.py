@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds the tests of divided runs with ThreadSanitizer and runs them: parts of a run share nothing but their mailboxes.
+"""Builds the tests of divided runs with ThreadSanitizer and runs them: parts of a run share nothing but their mailboxes, and what is recorded is written while they stand still.
 
 usage: thread_sanitized_test.py SOURCE BUILD_FOLDER
 """
@@ -15,6 +15,7 @@ COMPILER = "clang++"
 TESTS = {
     # What is shipped is divided without sanitizers; here a plant, faults, clocks, and a promise that is not kept.
     "takt_division_test": "DividedRun.HasTheResultOfOneThread:DividedRun.DoesWhatTheScriptSaysWhereItBelongs:DividedRun.HasTheClocksOfOneThread:DividedRun.AWrongPromiseEndsTheRun",
+    "takt_recording_test": "Recording.IsTheSameForEveryDivision:Recording.IsTheSameWithFaults",
 }
 
 

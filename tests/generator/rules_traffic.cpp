@@ -44,7 +44,7 @@ Made path(Maker& m, const Scope& s) {
 bool is_redundant(Maker& m, const Scope& s) {
   const std::vector<std::string> listeners = receivers(s);
   if (listeners.size() > 1) return m.world.switches.size() > 2 && !s.has("path") && m.draw.one_in(2);   // over two trees
-  return m.world.switches.size() > 2 && m.world.neighbours.at(s.text("from"))[0] != m.world.neighbours.at(listeners[0])[0] && !s.has("path");
+  return m.world.switches.size() > 2 && m.world.neighbours.at(s.text("from"))[0] != m.world.neighbours.at(listeners[0])[0] && !s.has("path") && !s.has("route");
 }
 
 /// Two paths that share no switch but the first and the last one; of a ladder any two.
@@ -109,6 +109,7 @@ std::span<const Rule> traffic_rules() {
       {.key = "stream.jitter", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("every") && !(m.wants(Feature::automatic_gates) && s.text("pcp") == "6") ? Made(m.word("10us 100us")) : std::nullopt; }},
       {.key = "stream.launch", .feature = Feature::launch, .percent = 50, .words = "0ns 10us 100us"},
       {.key = "stream.path", .feature = Feature::explicit_path, .percent = 50, .make = path},
+      {.key = "stream.route", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return receivers(s).size() == 1 && !s.has("path") && !m.wants(Feature::rerouting) ? m.word("auto") : Made(); }},
       {.key = "stream.redundancy", .feature = Feature::redundancy, .percent = 80, .make = [](Maker& m, const Scope& s) -> Made { return is_redundant(m, s) ? Made(m.short_or_object("redundancy", &s)) : std::nullopt; }},
       {.key = "exponential_gaps.mean", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() || m.is_long() ? "3ms 5ms" : "200us 500us 1ms"); }},
       {.key = "normal_gaps.mean", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() || m.is_long() ? "3ms 5ms" : "300us 500us 1ms"); }},

@@ -67,6 +67,9 @@ const BadCase cases[] = {
     {"StuckGateToNobody", with_faults(R"({"kind": "stuck-gate", "node": "sw", "to": "c", "class": 3, "state": "closed", "at": "1us"}, {"kind": "stuck-gate", "node": "a", "to": "b", "class": 3, "state": "closed", "at": "1us"})"),
      R"(2:44: error at /faults/0/to: not a neighbour: found "c", expected a node that a link joins to "sw"
 2:136: error at /faults/1/to: not a neighbour: found "b", expected a node that a link joins to "a")"},
+    {"ReroutingBesideARoute", scenario_with(R"("rerouting": {"delay": "1ms"}, "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "route": "auto"}])"),
+     R"(2:14: warning at /rerouting: nothing to reroute for: found no "faults", expected a fault that takes a link down
+2:126: error at /streams/0/route: a route beside rerouting: found "auto" beside "rerouting", which takes the shortest paths that are left, expected one of the two)"},
     {"ReroutingWithoutADelay", scenario_with(R"("rerouting": {}, "faults": [])"),
      R"(2:14: error at /rerouting: the field "delay" is missing
 2:14: warning at /rerouting: nothing to reroute for: found no "faults", expected a fault that takes a link down)"},

@@ -88,6 +88,8 @@ const BadCase cases[] = {
      R"(3:25: error at /streams/0/redundancy/count: redundancy for several receivers: found "count" of a stream to 2, expected 2)"},
     {"RedundancyBesideAPath", with_redundancy(R"(2)", R"("h2")", R"(, "path": ["h1", "sw1", "sw2", "h2"])"),
      R"(2:98: error at /streams/0/path: a path of a redundant stream: found "path" beside "redundancy", expected "paths" in "redundancy")"},
+    {"RedundancyBesideARoute", with_redundancy(R"(2)", R"("h2")", R"(, "route": "auto")"),
+     R"(2:99: error at /streams/0/route: a route of a redundant stream: found "route" beside "redundancy", expected "count" or "paths" in "redundancy")"},
     {"NumberAndPaths", with_redundancy(R"({"count": 2, "paths": [["h1", "sw1", "sw2", "h2"], ["h1", "sw1", "sw3", "sw2", "h2"]]})"),
      R"(3:37: error at /streams/0/redundancy/paths: fields that exclude each other: found "paths" beside "count", expected at most one of "count" or "paths")"},
     {"PathsThatAreNone", with_redundancy(R"({"paths": [["h1", "sw1", "sw2"], ["h1", "sw1", "h3", "sw2", "h2"]]})"),

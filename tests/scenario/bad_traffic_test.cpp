@@ -51,6 +51,13 @@ const BadCase streams_cases[] = {
      R"(2:108: error at /streams/0/jitter: jitter belongs to a periodic stream: found "jitter" without "every", expected "every")"},
     {"BurstLongerThanItsPeriod", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "burst": {"frames": 12, "every": "1ms", "spacing": "100us"}})"),
      R"(2:67: error at /streams/0/burst: a burst longer than its period: found 12 frames 100us apart, expected at most 1ms)"},
+    {"RouteThatIsNone", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "route": "shortest"})"),
+     R"(2:83: error at /streams/0/route: unknown name for a route: found "shortest", expected "auto")"},
+    {"RouteBesideAPath", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "path": ["a", "sw", "b"], "route": "auto"})"),
+     R"(2:109: error at /streams/0/route: two ways of one stream: found "route" beside "path", expected one of the two)"},
+    {"RouteToSeveral", with_streams(R"({"name": "s", "from": "a", "to": ["b", "b"], "payload": "100B", "every": "1ms", "route": "auto"})"),
+     R"(2:40: error at /streams/0/to/1: a receiver twice: found "b", expected each receiver once
+2:90: error at /streams/0/route: a route for several receivers: found 2 receivers, expected one receiver)"},
     {"VlanWithoutPriority", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "vlan": 5})"),
      R"(2:82: error at /streams/0/vlan: a VLAN without a priority: found "vlan" alone, expected "pcp" too, since the tag carries both)"},
     {"TwoPriorities", with_streams(R"({"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms", "pcp": 3, "host_priority": 5})"),

@@ -139,6 +139,8 @@ const IdleCase cases[] = {
      "/network/nodes/sw1/ingress/filters/0/ats: eligibility times that no port minds: class 7 at sw1:1, which is not sent by them | the class in \"ats\" of \"egress\"\n"},
     {"CqfWithoutFrames", ingress(R"("cqf": {"cycle": "500us", "classes": [4, 5]})"),
      "/network/nodes/sw1/ingress/cqf: cyclic queuing without frames: no stream that crosses \"sw1\" meets it | streams with its priorities\n"},
+    {"RouteThatNobodyHasSearchedFor", plain("", R"({"name": "s", "from": "a", "to": "b", "payload": "40B", "every": "1ms", "route": "auto"})"),
+     "/streams/0/route: a route that nobody has searched for: \"auto\", until then the shortest path | takt schedule SCENARIO --out FILE, which writes a \"path\", and then FILE\n"},
     {"StreamAfterTheEnd", plain("", R"({"name": "late", "from": "a", "to": "b", "payload": "40B", "every": "1ms", "offset": "10ms"})"),
      "/streams/0/offset: a stream that begins after the end of the simulation: 10ms | less than 10ms\n"},
     {"StreamThatEndsAfterTheEnd", plain("", R"({"name": "long", "from": "a", "to": "b", "payload": "40B", "every": "1ms", "until": "10ms"})"),

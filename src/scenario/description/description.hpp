@@ -21,6 +21,7 @@
 #include "scenario/description/figures.hpp"
 #include "scenario/description/gate_limits.hpp"
 #include "scenario/description/ingress.hpp"
+#include "scenario/description/route.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -326,6 +327,7 @@ struct Stream {
   Duration jitter;
   std::optional<Duration> launch;
   std::optional<std::vector<std::string>> path;
+  std::optional<Route> route;            ///< the shortest path until takt schedule has written one
   std::optional<Redundancy> redundancy;
   bool operator==(const Stream&) const = default;
 };

@@ -91,6 +91,14 @@ json::Node schema_names(json::SchemaBuilder& builder) {
 
 }  // namespace
 
+const json::Enumeration& describe(json::Type<Route>) {
+  static constexpr json::EnumName names[] = {
+      json::name(Route::automatic, "auto", "one that is searched for"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<Route>("a route", names);
+  return table;
+}
+
 const json::Custom& describe(json::Type<Names>) {
   static constexpr json::Custom table = json::custom<Names, decode_names, encode_names, schema_names>();
   return table;
@@ -117,6 +125,7 @@ const json::Object& describe(json::Type<Stream>) {
       optional<&Stream::launch>("launch", "Launch time of each frame, this long after it was due: the network interface sends it then, or drops it if it comes later.",
                                 {.max = longest_step}),
       optional<&Stream::path>("path", "All nodes from sender to receiver, instead of the shortest path.", {.min_items = 2, .max_items = most_names}),
+      optional<&Stream::route>("route", "In place of a path: takt schedule searches for one and writes it. Until then, and for all other commands, it is the shortest path."),
       optional<&Stream::redundancy>("redundancy", "Every frame takes several paths (IEEE 802.1CB): their number, or an object."),
   };
   static constexpr std::string_view schedules[] = {"every", "exponential", "normal", "burst", "trace"};

@@ -42,6 +42,8 @@ void tell_idle_streams(const Usage& usage, json::Diagnostics& diagnostics) {
       warn_once(diagnostics, stream.where.at("offset"), "a stream that begins after the end of the simulation", {json::to_text(*stream.offset), "less than " + json::to_text(r.scenario.duration)});
     if (stream.until && usage.is_after_the_end(*stream.until))
       warn_once(diagnostics, stream.where.at("until"), "a stream that ends after the end of the simulation", {json::to_text(*stream.until), "less than " + json::to_text(r.scenario.duration)});
+    if (stream.route)
+      warn_once(diagnostics, stream.where.at("route"), "a route that nobody has searched for", {"\"auto\", until then the shortest path", "takt schedule SCENARIO --out FILE, which writes a \"path\", and then FILE"});
     if (stream.host_priority && !tells_apart(usage, stream))
       warn_once(diagnostics, stream.where.at("host_priority"), "a priority that makes no difference", {std::to_string(*stream.host_priority) + ", whose class at " + json::quote(stream.from) + " is that of priority 0", "a priority of another class"});
     if (stream.burst && stream.burst->frames == 1 && stream.burst->spacing > Duration())

@@ -214,6 +214,7 @@ class Resolver {
     wanted.headers = stream.encapsulation == Encapsulation::udp ? models::ipv4_and_udp_headers : Octets{0};
     wanted.path = stream.path ? &*stream.path : nullptr;
     wanted.redundancy = stream.redundancy ? &*stream.redundancy : nullptr;
+    check_route(stream);
     models::TalkerSchedule schedule = schedule_of(stream);
     wanted.payload = stream.payload;
     if (const auto* trace = std::get_if<models::TraceSchedule>(&schedule))
@@ -230,6 +231,16 @@ class Resolver {
       diagnostics_.error_unless(diagnostics_.is_refused(stream.where.at("offset")) || diagnostics_.is_refused(stream.where.at("until")), stream.where.at("until"), "a stream that ends before it begins",
                                 {json::to_text(*stream.until), "more than its \"offset\" of " + json::to_text(stream.offset->value)});
     r_.plan.talkers.push_back(std::move(talker));
+  }
+
+  /// Of one path, from one host to another.
+  void check_route(const Stream& stream) {
+    if (!stream.route) return;
+    if (stream.path) diagnostics_.error(stream.where.at("route"), "two ways of one stream", {"\"route\" beside \"path\"", "one of the two"});
+    if (stream.redundancy) diagnostics_.error(stream.where.at("route"), "a route of a redundant stream", {"\"route\" beside \"redundancy\"", "\"count\" or \"paths\" in \"redundancy\""});
+    if (stream.to.names.size() > 1) diagnostics_.error(stream.where.at("route"), "a route for several receivers", {std::to_string(stream.to.names.size()) + " receivers", "one receiver"});
+    if (r_.scenario.rerouting)
+      diagnostics_.error(stream.where.at("route"), "a route beside rerouting", {"\"auto\" beside \"rerouting\", which takes the shortest paths that are left", "one of the two"});
   }
 
   models::TalkerSchedule schedule_of(const Stream& stream) {

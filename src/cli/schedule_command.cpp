@@ -37,7 +37,8 @@ struct ScheduleOptions {
   std::vector<std::string> files;
   std::string routes = "search";
   std::string objective = "feasible";
-  std::string limit = "10s";
+  std::optional<std::string> limit;
+  std::optional<std::string> cpu_limit;
   std::uint64_t seed = 1;
   std::uint32_t jobs = 0;
   std::uint32_t entries = 1'000'000;
@@ -49,6 +50,26 @@ struct ScheduleOptions {
   ChangeOptions change;
   ScenarioChangeOptions scenario_change;
 };
+
+/// How long a search may take: by the clock on the wall, and of the processors.
+struct Limits {
+  std::optional<sim::Duration> wall;
+  std::optional<sim::Duration> cpu;
+};
+
+std::chrono::nanoseconds used_of_processors() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
+}
+
+/// Counts from now on.
+schedule::Stop stop_at(const Limits& limits) {
+  const auto length = [](sim::Duration limit) { return std::chrono::nanoseconds(limit.ps() / 1'000); };
+  return [wall = limits.wall ? std::optional(Clock::now() + length(*limits.wall)) : std::nullopt, cpu = limits.cpu ? std::optional(used_of_processors() + length(*limits.cpu)) : std::nullopt] {
+    return (wall && Clock::now() > *wall) || (cpu && used_of_processors() > *cpu);
+  };
+}
 
 /// Two kinds of mistakes: told as text, or as JSON where the output is JSON.
 ExitStatus report_mistakes(const json::Diagnostics& diagnostics, const ScheduleOptions& options) {
@@ -66,14 +87,13 @@ bool write_file(const std::string& path, const std::string& text) {
   return problem.empty();
 }
 
-schedule::SearchOptions search_options(const ScheduleOptions& options, Clock::time_point begin, sim::Duration limit) {
+schedule::SearchOptions search_options(const ScheduleOptions& options, const Limits& limits) {
   schedule::SearchOptions how;
   how.routes = options.routes == "search" ? schedule::RouteChoice::search : schedule::RouteChoice::shortest;
   how.seed = options.seed;
   how.jobs = options.jobs == 0 ? std::max(1u, std::thread::hardware_concurrency()) : options.jobs;
   how.attempts = 1'000'000;
-  const auto end = begin + std::chrono::nanoseconds(limit.ps() / 1'000);
-  how.stop = [end] { return Clock::now() > end; };
+  how.stop = stop_at(limits);
   return how;
 }
 
@@ -97,9 +117,9 @@ bool is_judged_right(const schedule::Problem& problem, const Decision& decision)
   return wrong.empty();
 }
 
-ExitStatus schedule_instance(const schedule::Problem& problem, const ScheduleOptions& options, sim::Duration limit, json::Node& reports) {
+ExitStatus schedule_instance(const schedule::Problem& problem, const ScheduleOptions& options, const Limits& limits, json::Node& reports) {
   const std::clock_t begin = std::clock();
-  Decision decision = schedule::decide(problem, search_options(options, Clock::now(), limit), objective_of(options.objective));
+  Decision decision = schedule::decide(problem, search_options(options, limits), objective_of(options.objective));
   std::optional<std::string> no_lists;
   if (options.gates && decision.verdict == Decision::Verdict::scheduled) no_lists = schedule::make_gate_lists(problem, decision.found.solution, {options.entries});
   const double took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
@@ -118,7 +138,7 @@ ExitStatus schedule_instance(const schedule::Problem& problem, const ScheduleOpt
 }
 
 /// A scenario: what comes out is one, too.
-ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit) {
+ExitStatus schedule_scenario(const ScheduleOptions& options, const Limits& limits) {
   json::Diagnostics diagnostics;
   scenario::Scenario wanted;
   const auto document = json::parse_file(options.files.front(), diagnostics);
@@ -136,7 +156,7 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, sim::Duration limit
     how.clock_margin = synthesis::measure_clock_margin(wanted, diagnostics);
     if (!how.clock_margin) return report_mistakes(diagnostics, options);
   }
-  how.search = search_options(options, Clock::now(), limit);
+  how.search = search_options(options, limits);
   const auto answer = synthesis::schedule_scenario(wanted, how, diagnostics);
   if (!answer) return report_mistakes(diagnostics, options);
   for (const std::string& each : answer->wrong) std::fprintf(stderr, "takt: %s is answered wrongly: %s\n", wanted.name.c_str(), each.c_str());
@@ -185,13 +205,24 @@ ExitStatus worse(ExitStatus a, ExitStatus b) {
   return rank(b) > rank(a) ? b : a;
 }
 
+/// Ten seconds if nothing is said.
+Limits limits_of(const ScheduleOptions& options, json::Diagnostics& diagnostics) {
+  const auto read = [&](const std::optional<std::string>& text, const char* option) -> std::optional<sim::Duration> {
+    if (!text) return std::nullopt;
+    const auto limit = json::parse_duration(*text);
+    if (limit && (*limit).ps() > 0) return *limit;
+    diagnostics.error({option, 0, 0, ""}, "not a time to search", {json::quote(*text), "a duration such as \"10s\""});
+    return std::nullopt;
+  };
+  Limits limits{read(options.limit, "--limit"), read(options.cpu_limit, "--cpu-limit")};
+  if (!options.limit && !options.cpu_limit) limits.wall = sim::Duration::from_ps(10'000'000'000'000);
+  return limits;
+}
+
 ExitStatus run(const ScheduleOptions& options) {
   json::Diagnostics diagnostics;
-  const auto limit = json::parse_duration(options.limit);
-  if (!limit || (*limit).ps() <= 0) {
-    diagnostics.error({"--limit", 0, 0, ""}, "not a time to search", {json::quote(options.limit), "a duration such as \"10s\""});
-    return report_mistakes(diagnostics, options);
-  }
+  const Limits limits = limits_of(options, diagnostics);
+  if (diagnostics.has_errors()) return report_mistakes(diagnostics, options);
   // A folder ("DIR/") has a file for each instance.
   const std::string out = options.out.value_or(""), certificate = options.certificate.value_or(""), plant = options.change.plant.value_or(""), transition = options.scenario_change.transition.value_or("");
   if (!can_write({{"--out", out, Place::Kind::either}, {"--certificate", certificate, Place::Kind::either}, {"--plant", plant, Place::Kind::file}, {"--transition", transition, Place::Kind::file}}, options.format == "json"))
@@ -199,7 +230,7 @@ ExitStatus run(const ScheduleOptions& options) {
   check_change(options, diagnostics);
   if (diagnostics.has_errors()) return report_mistakes(diagnostics, options);
   if (options.to && (options.files.empty() || is_scenario(options))) return change_scenario(options);
-  if (is_scenario(options)) return schedule_scenario(options, *limit);
+  if (is_scenario(options)) return schedule_scenario(options, limits);
   interchange::schedules::InstanceReader reader(options.files);
   ExitStatus status = ExitStatus::pass;
   json::Node reports = json::Node::array();
@@ -219,7 +250,7 @@ ExitStatus run(const ScheduleOptions& options) {
         if (!stream.route) diagnostics.error({options.files.front(), 0, 0, ""}, fmt::format("stream {} has no route", json::quote(stream.name)), {"--routes given", "--routes shortest or search"});
     if (diagnostics.has_errors()) return report_mistakes(diagnostics, options);
     any = true;
-    status = worse(status, schedule_instance(*problem, options, *limit, reports));
+    status = worse(status, schedule_instance(*problem, options, limits, reports));
     if (status == ExitStatus::internal_error) return status;
   }
   if (!any) {
@@ -240,7 +271,8 @@ void add_schedule_command(Command app, ExitStatus& status) {
   command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: of an instance the best of twelve attempts; slack: the greatest clock error (feasible)")
       .one_of({"feasible", "latency", "entries", "slack"})
       .type_name("WHAT");
-  command.add_option("--limit", options->limit, "How long to search each instance (10s)").type_name("D");
+  command.add_option("--limit", options->limit, "How long to search each instance, by the clock on the wall (10s, with --cpu-limit no end)").type_name("D");
+  command.add_option("--cpu-limit", options->cpu_limit, "How much time of the processors each search may take, of all threads together").type_name("D");
   command.add_option("--seed", options->seed, "Another seed of the search (1)").type_name("N");
   command.add_option("--jobs", options->jobs, "Threads; the result is the same for any number (all processors)").type_name("N");
   command.add_flag("--gates", options->gates, "Gate control lists, too");

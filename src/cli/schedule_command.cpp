@@ -149,6 +149,7 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, const Limits& limit
   }
   synthesis::ScenarioOptions how;
   how.may_route = options.routes == "search";
+  how.may_route_open = options.routes != "shortest";
   how.entries = std::min<std::uint32_t>(options.entries, scenario::most_gate_entries);
   how.wants_slack = options.objective == "slack";
   // The limit is that of the search.
@@ -267,7 +268,7 @@ void add_schedule_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("schedule", "Find routes, phases and gate lists, or say why there are none");
   const auto options = std::make_shared<ScheduleOptions>();
   command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25, GraphML with applications or neutral, told by their content; network and streams one after the other where they are two files. With --to a scenario need not be given");
-  command.add_option("--routes", options->routes, "given: streams without a route are refused; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");
+  command.add_option("--routes", options->routes, "given: streams without a route are refused, of a scenario only \"route\": \"auto\" is searched for; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");
   command.add_option("--objective", options->objective, "feasible: the first schedule; latency, entries: of an instance the best of twelve attempts; slack: the greatest clock error (feasible)")
       .one_of({"feasible", "latency", "entries", "slack"})
       .type_name("WHAT");

@@ -71,6 +71,7 @@ py::tuple schedule_scenario(const scenario::Scenario& wanted, const HowToSchedul
     const py::gil_scoped_release unlocked;
     synthesis::ScenarioOptions options;
     options.may_route = how.routes == "search";
+    options.may_route_open = how.routes != "shortest";
     options.entries = std::min<std::uint32_t>(how.entries, scenario::most_gate_entries);
     options.wants_slack = how.objective == "slack";
     options.search = search_options(how, watch);

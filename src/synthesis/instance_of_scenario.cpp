@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "json/node.hpp"
 #include "scenario/gates/timing.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "schedule/way.hpp"
@@ -13,21 +14,11 @@ using schedule::LinkIndex;
 using schedule::Problem;
 using schedule::Ps;
 
-std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const scenario::Scenario& wanted, json::Diagnostics& diagnostics, std::string& why_not, bool allows_early) {
-  // The problem of gates is what these streams need; with the gates that are asked for, but not yet laid.
-  resolved.scenario.gates = wanted.gates;
-  const auto gated = scenario::gate_problem_of(resolved, scenario::timings_of(resolved), diagnostics);
-  resolved.scenario.gates.reset();
-  if (!gated) return std::nullopt;
-  ScenarioInstance instance;
-  Problem& problem = instance.problem;
-  problem.name = wanted.name;
+InstanceNetwork network_of(const scenario::Resolved& resolved) {
+  InstanceNetwork network;
+  Problem& problem = network.problem;
   problem.source = "takt";
-  problem.model.is_strict = true;
-  problem.model.no_wait = true;
-  problem.model.margin = gated->problem.margin.ps();
   for (const scenario::TopologyNode& node : resolved.topology.nodes) problem.nodes.push_back({node.name, node.forwards()});
-  std::map<std::pair<std::uint32_t, std::uint32_t>, LinkIndex> link_at;   // by node and port
   for (const models::LinkPlan& plan : resolved.plan.links)
     for (const auto& [from, to] : {std::pair(plan.a, plan.b), std::pair(plan.b, plan.a)}) {
       schedule::Link link;
@@ -38,9 +29,25 @@ std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const 
       link.octet = plan.rate.octet_time().ps();
       link.propagation = plan.delay.ps();
       link.forwarding = resolved.plan.nodes[link.to].greatest_forwarding_delay().ps();
-      link_at[{link.from, from.port}] = static_cast<LinkIndex>(problem.links.size());
+      network.link_at[{link.from, from.port}] = static_cast<LinkIndex>(problem.links.size());
       problem.links.push_back(std::move(link));
     }
+  return network;
+}
+
+std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const scenario::Scenario& wanted, const OpenRoutes& open, json::Diagnostics& diagnostics, std::string& why_not, bool allows_early) {
+  // The problem of gates is what these streams need; with the gates that are asked for, but not yet laid.
+  resolved.scenario.gates = wanted.gates;
+  const auto gated = scenario::gate_problem_of(resolved, scenario::timings_of(resolved), diagnostics);
+  resolved.scenario.gates.reset();
+  if (!gated) return std::nullopt;
+  auto [network, link_at] = network_of(resolved);
+  ScenarioInstance instance{std::move(network), {}};
+  Problem& problem = instance.problem;
+  problem.name = wanted.name;
+  problem.model.is_strict = true;
+  problem.model.no_wait = true;
+  problem.model.margin = gated->problem.margin.ps();
   std::map<std::string, std::size_t, std::less<>> entry_of;
   for (std::size_t i = 0; i < wanted.streams.size(); ++i) entry_of[wanted.streams[i].name] = i;
   const schedule::Timing timing(problem, schedule::GateTiming::flowing);
@@ -79,7 +86,12 @@ std::optional<ScenarioInstance> instance_of(scenario::Resolved& resolved, const 
     for (const scenario::Requirement& requirement : wanted.require)
       if (requirement.stream == gate.name && requirement.latency) stream.latency = std::min(stream.latency.value_or(schedule::longest_time), requirement.latency->greatest().ps());
     const bool is_free = written != nullptr && written->offset && written->offset->is_auto;
-    if (!is_free || written->path || stream.listeners.size() != 1) stream.route = route;
+    const bool is_open = open.contains(gate.name);
+    if (is_open && !is_free) {
+      why_not = json::quote(gate.name) + " says \"route\": \"auto\", and ways are searched for streams with \"offset\": \"auto\"";
+      return std::nullopt;
+    }
+    if (!is_free || (written->path && !is_open) || stream.listeners.size() != 1) stream.route = route;
     if (!is_free) {
       // One start only: deadline and release leave no other.
       schedule::Stream unlimited = stream;

@@ -7,6 +7,7 @@
 namespace takt::synthesis {
 
 const json::Record& describe(json::Type<JudgedStream>);
+const json::Record& describe(json::Type<StreamRequirement>);
 const json::Record& describe(json::Type<ScenarioSchedule>);
 /// A few lines for people.
 std::string text_of(const std::string& name, const ScenarioSchedule& answer);

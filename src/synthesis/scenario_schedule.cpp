@@ -15,6 +15,8 @@
 #include "schedule_check/check.hpp"
 #include "schedule_check/instance_check.hpp"
 #include "synthesis/instance_of_scenario.hpp"
+#include "synthesis/open_routes.hpp"
+#include "synthesis/placements.hpp"
 
 namespace takt::synthesis {
 namespace {
@@ -89,6 +91,15 @@ void judge(ScenarioSchedule& answer) {
   const results::RunResult result = evaluation::evaluate(run, false);
   const analysis::Bounds bounds = analysis::bound(resolved);
   const std::optional<Duration> synchronised = synchronised_from(answer);
+  answer.requirements = stream_requirements(resolved, bounds);
+  for (const StreamRequirement& each : answer.requirements)
+    for (const results::RequirementResult& seen : result.requirements)
+      if (seen.requirement == each.requirement && !synchronised && each.bound && seen.measured && *seen.measured > *each.bound)
+        answer.wrong.push_back(fmt::format("bound: {} is {} in a run, and at most {} is bounded", each.text, json::to_text(*seen.measured), json::to_text(*each.bound)));
+  if (const std::string broken = first_broken(answer.requirements); !broken.empty()) {
+    answer.how = broken;
+    answer.verdict = Verdict::undecided;
+  }
   for (std::size_t s = 0; s < resolved.gates->problem.streams.size(); ++s) {
     const scenario::ScheduledStream& stream = resolved.gates->problem.streams[s];
     JudgedStream judged{stream.name, planned_latency(*resolved.gates, s), 0, {}, {}};
@@ -143,9 +154,42 @@ std::unique_ptr<Resolved> begin_later(std::unique_ptr<Resolved> resolved, const 
   return resolve_quietly(later, why);
 }
 
+/// Streams whose ways may be other ones: those that say so, and with `may_route` all scheduled ones that say neither path nor offset.
+OpenRoutes open_ways(const Scenario& asked, const Resolved& resolved, OpenRoutes open, bool may_route) {
+  if (!may_route) return open;
+  for (const scenario::ScheduledStream& each : resolved.gates->problem.streams) {
+    const auto written = std::ranges::find(asked.streams, each.name, &scenario::Stream::name);
+    if (written != asked.streams.end() && !written->path && written->offset && written->offset->is_auto && written->to.names.size() == 1) open.insert(each.name);
+  }
+  return open;
+}
+
+/// A schedule that keeps what is required of all streams, that of `resolved` or another one; null if none does, and then `answer` says how close they come.
+std::unique_ptr<Resolved> keep_requirements(std::unique_ptr<Resolved> resolved, const Scenario& asked, const OpenRoutes& open, const ScenarioOptions& options, ScenarioSchedule& answer, const char*& how) {
+  if (!requires_of_streams(*resolved)) return resolved;
+  std::string unsaid;
+  PlacementOptions places{open_ways(asked, *resolved, open, options.may_route), options.search.seed, options.search.stop, [&unsaid](const Scenario& scenario) { return resolve_quietly(scenario, unsaid); }};
+  Placed placed = place_for_requirements(std::move(resolved), asked, places);
+  const Shortfall shortfall = shortfall_of(placed.best.requirements);
+  const bool is_closest = answer.placements == 0 || shortfall < shortfall_of(answer.requirements);
+  answer.placements += placed.tried;
+  if (is_closest) {
+    answer.requirements = placed.best.requirements;
+    answer.placement = placed.best.how;
+  }
+  if (shortfall.broken == 0) {
+    if (placed.best.has_other_ways) how = "searched paths";
+    return std::move(placed.best.resolved);
+  }
+  answer.how = fmt::format("{} in the closest of {} schedules ({})", first_broken(answer.requirements), answer.placements, answer.placement);
+  return nullptr;
+}
+
 /// True if it is answered: scheduled, or lists too long for the devices.
-bool take(ScenarioSchedule& answer, const Scenario& asked, const ScenarioOptions& options, const char* how) {
+bool take(ScenarioSchedule& answer, const Scenario& asked, const OpenRoutes& open, const ScenarioOptions& options, const char* how) {
   auto resolved = resolve_quietly(asked, answer.how);
+  if (!resolved) return false;
+  if (longest_list(*resolved) <= options.entries) resolved = keep_requirements(std::move(resolved), asked, open, options, answer, how);
   if (!resolved) return false;
   std::string unsaid;   // wider margins than devices take are none
   const auto resolve = [&unsaid](const Scenario& scenario) { return resolve_quietly(scenario, unsaid); };
@@ -184,7 +228,10 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const S
     if (!answer.clock_margin) return std::nullopt;
     wanted = with_clock_margin(std::move(wanted), *answer.clock_margin);
   }
-  if (take(answer, wanted, options, "given paths")) return answer;
+  OpenRoutes open = write_shortest_paths(wanted, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  if (!options.may_route_open) open.clear();
+  if (take(answer, wanted, open, options, "given paths")) return answer;
   // Is anything else wrong than that there is no schedule? Without gates it would be, too.
   Scenario bare = wanted;
   bare.gates.reset();
@@ -192,7 +239,7 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const S
   auto resolved = scenario::resolve(bare, diagnostics);
   if (!resolved || diagnostics.has_errors()) return std::nullopt;
   std::string why_not;
-  auto instance = instance_of(*resolved, wanted, diagnostics, why_not);
+  auto instance = instance_of(*resolved, wanted, open, diagnostics, why_not);
   if (diagnostics.has_errors()) return std::nullopt;
   if (!instance) {
     if (answer.how.empty()) answer.how = "no offsets found, and no search for paths: " + why_not;
@@ -202,7 +249,7 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const S
   if (!options.may_route) {
     // The ways of the scenario are all that there are.
     for (std::size_t s = 0; s < problem.streams.size(); ++s) {
-      if (problem.streams[s].route) continue;
+      if (problem.streams[s].route || open.contains(problem.streams[s].name)) continue;
       std::vector<schedule::LinkIndex> route;
       for (const scenario::ResolvedStream& each : resolved->streams)
         if (resolved->plan.streams[each.index.value].name == problem.streams[s].name)
@@ -215,27 +262,35 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const S
       problem.streams[s].route = std::move(route);
     }
   }
-  schedule::Decision decision = schedule::decide(problem, options.search);
+  // Ways that the scenario leaves open are searched for whatever becomes of the others, which have their routes by now.
+  schedule::SearchOptions search = options.search;
+  if (!open.empty()) search.routes = schedule::RouteChoice::search;
+  schedule::Decision decision = schedule::decide(problem, search);
   answer.verdict = decision.verdict;
   answer.certificate = decision.certificate;
   answer.left_over = decision.found.left_over;
   answer.instance = problem;
   if (decision.certificate)
     if (const std::string why = schedule_check::why_not_proved(problem, *decision.certificate); !why.empty()) answer.wrong.push_back("certificate: " + why);
-  if (decision.verdict == Verdict::infeasible) answer.how.clear();
+  if (decision.verdict == Verdict::infeasible) {
+    answer.how.clear();
+    answer.requirements.clear();
+    answer.placements = 0;
+  }
   if (decision.verdict != Verdict::scheduled) return answer;
   answer.verdict = Verdict::undecided;
   Scenario routed = wanted;
   for (std::size_t s = 0; s < problem.streams.size(); ++s)
     if (instance->streams[s] && !problem.streams[s].route) routed.streams[*instance->streams[s]].path = path_of(problem, *decision.found.solution.streams[s]);
-  if (take(answer, routed, options, "searched paths")) return answer;
+  // What was tried already comes to the same.
+  if (routed.streams != wanted.streams && take(answer, routed, open, options, "searched paths")) return answer;
   // Starts that the search found: whole ns, if delays are.
   for (std::size_t s = 0; s < problem.streams.size(); ++s) {
     if (!instance->streams[s]) continue;
     auto& written = routed.streams[*instance->streams[s]];
     if (written.offset && written.offset->is_auto) written.offset = json::OrAuto<Duration>(Duration::from_ps(decision.found.solution.streams[s]->starts.front().front() / 1'000 * 1'000));
   }
-  if (take(answer, routed, options, "searched paths and offsets")) return answer;
+  if (take(answer, routed, open, options, "searched paths and offsets")) return answer;
   if (answer.how.empty()) answer.how = "ways were found for which no offsets in whole ns are";
   return answer;
 }

@@ -10,11 +10,13 @@
 #include "schedule/decide.hpp"
 #include "synthesis/clock_margin.hpp"
 #include "synthesis/slack.hpp"
+#include "synthesis/stream_requirements.hpp"
 
 namespace takt::synthesis {
 
 struct ScenarioOptions {
   bool may_route = true;                 ///< streams without a path and with "offset": "auto" may get one
+  bool may_route_open = true;            ///< those that say "route": "auto" may
   std::uint32_t entries = 1024;          ///< a gate list may have, besides what "gate_limits" of nodes say
   bool wants_slack = false;              ///< the greatest clock error, not the first schedule
   std::optional<ClockMargin> clock_margin = {};   ///< for "margin": "auto"; empty: it is measured first
@@ -42,6 +44,9 @@ struct ScenarioSchedule {
   std::optional<Slack> slack;                          ///< if it was asked for
   std::vector<std::string> wrong;                      ///< what a judge found; takt is wrong then
   std::vector<JudgedStream> streams;
+  std::vector<StreamRequirement> requirements;         ///< what is required of streams; if that breaks, of the schedule that comes closest
+  std::uint32_t placements = 0;                        ///< schedules that were bounded for their sake
+  std::string placement;                               ///< how streams were placed in the one that `requirements` are of
 };
 
 /// Mistakes of the scenario go to `diagnostics`; then the answer is nothing.

@@ -24,6 +24,7 @@
 #include "study/compare.hpp"
 #include "study/description.hpp"
 #include "synthesis/change_report.hpp"
+#include "synthesis/report.hpp"
 #include "verify/report_record.hpp"
 
 namespace takt::cli {
@@ -58,7 +59,8 @@ constexpr std::array file_kinds{
     written_as<verify::Report>("verify", "takt verify --format json"),
     written_as<explain::Explanation>("explain", "takt explain --format json"),
     written_as<explore::Exploration>("explore", "takt explore --format json"),
-    written_as<interchange::schedules::ScheduleReport>("schedule", "takt schedule --format json"),
+    written_as<interchange::schedules::ScheduleReport>("schedule", "takt schedule INSTANCE --format json"),
+    written_as<synthesis::ScenarioSchedule>("schedule-scenario", "takt schedule SCENARIO --format json"),
     written_as<synthesis::ChangeSummary>("schedule-change", "takt schedule --to SCENARIO --format json"),
     written_as<study::Comparison>("compare", "takt compare --format json"),
     written_as<node::NodeStatus>("status", "takt ctl NODE status --format json"),
@@ -92,7 +94,7 @@ void add_schema_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
   for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
-  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule, schedule-change (of a scenario), compare, status, describe (of a node), statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
+  command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule (of instances), schedule-scenario, schedule-change (of a scenario), compare, status, describe (of a node), statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
   command.callback([options, &status] {

@@ -52,7 +52,7 @@ MEANT = {
 class CliTest(unittest.TestCase):
     def test_the_reference_is_the_generated_one(self):
         """To renew it: takt schema KIND --reference > docs/reference/KIND.md"""
-        for kind in ("scenario", "study", "node", "applications", "key-service", "result", "bound", "verify", "explain", "explore", "schedule", "schedule-change", "compare", "status", "describe", "statistics", "emulate"):
+        for kind in ("scenario", "study", "node", "applications", "key-service", "result", "bound", "verify", "explain", "explore", "schedule", "schedule-scenario", "schedule-change", "compare", "status", "describe", "statistics", "emulate"):
             with self.subTest(kind):
                 status, page, _ = takt("schema", kind, "--reference")
                 self.assertEqual(status, 0)

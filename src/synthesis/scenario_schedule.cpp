@@ -274,8 +274,10 @@ std::optional<ScenarioSchedule> schedule_scenario(const Scenario& asked, const S
     if (const std::string why = schedule_check::why_not_proved(problem, *decision.certificate); !why.empty()) answer.wrong.push_back("certificate: " + why);
   if (decision.verdict == Verdict::infeasible) {
     answer.how.clear();
+    answer.left_over.clear();   // some partial schedule is no part of a proof
     answer.requirements.clear();
     answer.placements = 0;
+    answer.placement.clear();
   }
   if (decision.verdict != Verdict::scheduled) return answer;
   answer.verdict = Verdict::undecided;

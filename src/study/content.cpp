@@ -51,7 +51,7 @@ bool read_variants(sqlite3* database, Content& content) {
 }
 
 bool read_points(sqlite3* database, Content& content) {
-  std::string columns = "id, variant, replication, status, pass, cpu_us, error";
+  std::string columns = "id, variant, replication, status, pass, cpu_us, error, verdict";
   for (std::size_t m = 0; m < content.measures.size(); ++m) columns += fmt::format(", m{}", m);
   Statement points(database, "SELECT " + columns + " FROM point ORDER BY id");
   std::int64_t cpu_us = 0;
@@ -61,9 +61,10 @@ bool read_points(sqlite3* database, Content& content) {
     content.replication.push_back(static_cast<std::uint32_t>(points.integer(2)));
     content.status.push_back(status_named(points.text(3)).value_or(Status::failed));
     content.passes.push_back(points.integer(4) != 0);
+    content.verdict.push_back(points.text(7));
     cpu_us += points.integer(5);
     if (content.status.back() != Status::done) content.troubles.push_back({static_cast<std::uint64_t>(points.integer(0)), content.status.back(), points.text(6)});
-    for (std::size_t m = 0; m < content.measures.size(); ++m) content.measures[m].values.push_back(points.real(7 + static_cast<int>(m)).value_or(nothing));
+    for (std::size_t m = 0; m < content.measures.size(); ++m) content.measures[m].values.push_back(points.real(8 + static_cast<int>(m)).value_or(nothing));
   }
   content.cpu_seconds = static_cast<double>(cpu_us) * 1e-6;
   return !points.failed();

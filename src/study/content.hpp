@@ -48,6 +48,7 @@ struct Content {
   std::vector<std::uint32_t> replication;
   std::vector<bool> passes;
   std::vector<Status> status;
+  std::vector<std::string> verdict;
   std::vector<Trouble> troubles;
   double cpu_seconds = 0;
 

@@ -138,7 +138,7 @@ const json::Object& describe(json::Type<Design>) {
 const json::Object& describe(json::Type<Measure>) {
   static constexpr json::Field fields[] = {
       required<&Measure::name>("name", "Unique; letters, digits and _.", {.min_length = 1, .max_length = 60}),
-      required<&Measure::of>("of", "A JSON pointer into result.json, * for every member; or a short form such as reaction.start.max.", {.min_length = 2, .max_length = 1000}),
+      required<&Measure::of>("of", "A JSON pointer into result.json, * for every member; or a short form such as reaction.start.max. Of a study of schedules: scheduled, infeasible, undecided, left_over, busiest_link, normalised_latency or waiting.", {.min_length = 2, .max_length = 1000}),
       optional<&Measure::only>("only", "Members that objects on the way must have."),
       optional<&Measure::take>("take", "What is taken if there are several values."),
       optional<&Measure::unit>("unit", "ps, ns, us, ms or s for times, % for shares, otherwise a label.", {.max_length = 20}),
@@ -186,6 +186,46 @@ const json::Enumeration& describe(json::Type<Impossible>) {
   return table;
 }
 
+const json::Object& describe(json::Type<DrawnStreams>) {
+  static constexpr json::Field fields[] = {
+      optional<&DrawnStreams::count>("count", "How many. Fewer are the first of more.", {.min = 1, .max = 100'000}),
+      optional<&DrawnStreams::every>("every", "Periods, one of which each stream has.", {.min_items = 1, .max_items = 100, .items = {.min = 1_us, .max = 10_s}}),
+      optional<&DrawnStreams::payload>("payload", "Octets of user data, before IPv4 and UDP headers are added.", {.min_items = 1, .max_items = 100, .items = {.max = sim::Octets{1472}}}),
+      optional<&DrawnStreams::latency>("latency", "Longest times from the start at the talker to the end at the listener; as long as it takes if there is none.", {.max_items = 100, .items = {.min = 1_us, .max = 10_s}}),
+  };
+  static constexpr json::Object table = json::object<DrawnStreams>("drawn_streams", "Streams between hosts that are drawn, with a period, a payload and a latency of the lists.", fields);
+  return table;
+}
+
+const json::Enumeration& describe(json::Type<SearchedRoutes>) {
+  static constexpr json::EnumName names[] = {
+      name(SearchedRoutes::shortest, "shortest", "one way for each stream: of the shortest ones that over the least loaded links"),
+      name(SearchedRoutes::search, "search", "other ways, too"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<SearchedRoutes>("a choice of routes", names);
+  return table;
+}
+
+const json::Object& describe(json::Type<Scheduling>) {
+  static constexpr json::Field fields[] = {
+      optional<&Scheduling::streams>("streams", "What is scheduled."),
+      optional<&Scheduling::routes>("routes", "Which ways streams may take."),
+      optional<&Scheduling::waiting>("waiting", "Whether frames may wait in bridges."),
+      optional<&Scheduling::margin>("margin", "Clocks of two nodes differ by at most this.", {.max = 1_ms}),
+      optional<&Scheduling::attempts>("attempts", "Attempts of the search before a point is undecided; times do not count, so that all machines find the same.", {.min = 1, .max = 1'000'000}),
+  };
+  static constexpr json::Object table = json::object<Scheduling>("scheduling", "How points are scheduled.", fields);
+  return table;
+}
+
+const json::Object& describe(json::Type<SchedulingPart>) {
+  static constexpr json::Field fields[] = {
+      required<&SchedulingPart::schedule>("schedule", "How points are scheduled."),
+  };
+  static constexpr json::Object table = json::object<SchedulingPart>("scheduling_part", "What factors of a study of schedules vary besides the scenario.", fields);
+  return table;
+}
+
 const json::Object& describe(json::Type<Study>) {
   static constexpr json::Field fields[] = {
       optional<&Study::schema>("$schema", "The JSON Schema, for editors."),
@@ -193,6 +233,7 @@ const json::Object& describe(json::Type<Study>) {
       optional<&Study::description>("description", "What it asks."),
       optional<&Study::base>("base", "The scenario file that is varied, beside the study."),
       optional<&Study::scenario>("scenario", "The scenario that is varied, in place of a file."),
+      optional<&Study::schedule>("schedule", "Points are not run: streams are drawn on the network of the scenario and scheduled as takt schedule does it. Pointers of factors that begin with /schedule lead here."),
       required<&Study::factors>("factors", "What varies.", {.min_items = 1, .max_items = 100}),
       optional<&Study::design>("design", "Which combinations are run."),
       optional<&Study::constraints>("constraints", "Only combinations for which all of these hold: \"slaves <= 4 * hops\".", {.max_items = 100}),

@@ -13,6 +13,7 @@
 #include "scenario/description/description.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
+#include "study/scheduling.hpp"
 
 namespace takt::study {
 
@@ -135,6 +136,7 @@ struct Study {
   std::optional<std::string> description;
   std::optional<std::string> base;   ///< a scenario file, beside the study
   std::optional<Value> scenario;     ///< or the scenario itself
+  std::optional<Scheduling> schedule;  ///< points are not run: streams are drawn and scheduled
   std::vector<Factor> factors;
   Design design;
   std::vector<std::string> constraints;

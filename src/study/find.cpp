@@ -33,7 +33,7 @@ bool know_name(Plan& plan, const std::string& name, std::string& problem) {
   measure.name = "figure";
   measure.of = name;
   json::Diagnostics diagnostics;
-  auto planned = plan_measure(measure, diagnostics);
+  auto planned = plan.study.schedule ? plan_scheduling_measure(measure, diagnostics) : plan_measure(measure, diagnostics);
   if (!planned) {
     problem = json::quote(name) + " is neither a measure of the study, nor a short form such as reaction.start.max, nor pass";
     return false;
@@ -99,13 +99,7 @@ class Search {
     variant[question_.factor] = tried.level;
     const std::uint32_t replications = plan_.study.replications.count;
     const auto run_one = [&](std::uint64_t r) {
-      json::Diagnostics diagnostics;
-      const auto scenario = scenario_of(plan_, variant, plan_.study.replications.first_seed + r, diagnostics);
-      Outcome outcome;
-      if (scenario) return packed(run_scenario(plan_, *scenario, options_.threads));
-      outcome.status = Status::impossible;
-      outcome.error = diagnostics.to_text();
-      return packed(outcome);
+      return packed(run_variant(plan_, variant, plan_.study.replications.first_seed + r, options_.threads));
     };
     Pool pool(std::min(options_.jobs, replications), {plan_.study.effort.cpu, plan_.study.effort.memory.count}, run_one);
     std::uint64_t next = 0;

@@ -24,6 +24,26 @@ std::optional<PlannedMeasure> plan_measure(const Measure& measure, json::Diagnos
   return figure && has_name ? std::optional(PlannedMeasure{*figure, measure.name}) : std::nullopt;
 }
 
+std::optional<PlannedMeasure> plan_scheduling_measure(const Measure& measure, json::Diagnostics& diagnostics) {
+  std::vector<std::string_view> names;
+  std::string listed;
+  for (const SchedulingFigure& figure : scheduling_figures()) {
+    names.push_back(figure.name);
+    listed += (listed.empty() ? "" : ", ") + std::string(figure.name);
+  }
+  const bool is_known = std::find(names.begin(), names.end(), measure.of) != names.end();
+  if (!is_name(measure.name)) diagnostics.error(measure.where.at("name"), "not a name for a measure", {json::quote(measure.name), "letters, digits and _, a letter first"});
+  if (!is_known) diagnostics.error(measure.where.at("of"), "not a figure of a schedule", {json::quote(measure.of), "one of " + listed, json::suggest(measure.of, names)});
+  if (!measure.only.empty()) diagnostics.error(measure.where.at("only"), "nothing to choose from", {"\"only\" of a figure of a schedule", "none, since each point has one"});
+  if (!is_known || !is_name(measure.name)) return std::nullopt;
+  PlannedMeasure planned;
+  planned.name = measure.name;
+  planned.steps = {measure.of};
+  planned.unit = measure.unit;
+  planned.divisor = measure.unit == "%" ? 0.01 : 1;
+  return planned;
+}
+
 std::optional<PlannedLimit> plan_limit(const Limit& limit, const std::vector<PlannedMeasure>& measures, json::Diagnostics& diagnostics) {
   const bool is_upper = limit.at_most.has_value();
   const std::optional<Value>& bound = is_upper ? limit.at_most : limit.at_least;

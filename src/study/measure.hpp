@@ -19,6 +19,9 @@ struct PlannedMeasure : scenario::Figure {
 /// Checks a measure; mistakes are diagnostics, and then there is none. What can be a figure: scenario/figures/figure.hpp.
 std::optional<PlannedMeasure> plan_measure(const Measure& measure, json::Diagnostics& diagnostics);
 
+/// The same in a study of schedules: one of scheduling_figures() (scheduling.hpp), of shares in % if the unit says so.
+std::optional<PlannedMeasure> plan_scheduling_measure(const Measure& measure, json::Diagnostics& diagnostics);
+
 /// A limit of a measure, in its unit.
 struct PlannedLimit : scenario::FigureLimit {
   std::size_t measure = 0;

@@ -85,7 +85,7 @@ std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diag
     failures = i;
   }
   for (const Measure& measure : study.measures)
-    if (auto planned = plan_measure(measure, diagnostics)) plan->measures.push_back(std::move(*planned));
+    if (auto planned = study.schedule ? plan_scheduling_measure(measure, diagnostics) : plan_measure(measure, diagnostics)) plan->measures.push_back(std::move(*planned));
   for (const Limit& limit : study.limits)
     if (auto planned = plan_limit(limit, plan->measures, diagnostics)) plan->limits.push_back(std::move(*planned));
   if (!base) return nullptr;
@@ -95,7 +95,7 @@ std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diag
   if (plan->points() > most_points)
     diagnostics.error(study.where.place(), "too many points", {fmt::format("{} variants with {} replications", plan->variants.size(), study.replications.count), fmt::format("at most {}", most_points)});
   if (diagnostics.has_errors()) return nullptr;
-  check_names_of_measures(*plan, 0, diagnostics);
+  if (!study.schedule) check_names_of_measures(*plan, 0, diagnostics);
   if (diagnostics.has_errors()) return nullptr;
   plan->text = text_of(study, plan->factors, *base);
   plan->digest = hash_of(plan->text);
@@ -110,6 +110,11 @@ std::string name_of(const Plan& plan, const Variant& variant) {
 
 namespace {
 
+constexpr std::string_view scheduling_root = "/schedule";
+
+/// Of a study of schedules: the pointer leads to how points are scheduled, and not into the scenario.
+bool is_of_scheduling(const Plan& plan, const std::string& pointer) { return plan.study.schedule && (pointer == scheduling_root || pointer.starts_with(std::string(scheduling_root) + "/")); }
+
 /// The base with what the levels and the seed change in it; false if that cannot be put there.
 bool vary(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Document& document, json::Diagnostics& diagnostics) {
   std::vector<json::Replacement> replacements;
@@ -117,7 +122,8 @@ bool vary(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Do
   for (std::size_t f = 0; f < plan.factors.size(); ++f) {
     if (plan.factors[f].levels.empty()) continue;   // link failures that are not enumerated yet
     const Level& level = plan.level_of(variant, f);
-    replacements.insert(replacements.end(), level.replacements.begin(), level.replacements.end());
+    for (const json::Replacement& each : level.replacements)
+      if (!is_of_scheduling(plan, each.pointer)) replacements.push_back(each);
   }
   replacements.push_back({"/seed", json::Node::of_integer(static_cast<sim::int128>(seed)), "replications", plan.study.where.at("replications")});
   return json::replace(document, replacements, diagnostics);
@@ -130,8 +136,27 @@ void check_variant(const Plan& plan, const Variant& variant, json::Diagnostics& 
   if (!vary(plan, variant, plan.study.replications.first_seed, document, diagnostics)) return;
   scenario::Scenario scenario;
   json::decode(document, scenario, diagnostics);
+  const auto scheduling = plan.study.schedule ? scheduling_of(plan, variant, diagnostics) : std::nullopt;
   // Checks of meaning run even if single values are wrong, so that all mistakes are seen at once.
-  if (scenario.network.where.is_known()) scenario::resolve(std::move(scenario), diagnostics);
+  if (!scenario.network.where.is_known()) return;
+  const auto resolved = scenario::resolve(std::move(scenario), diagnostics);
+  if (resolved && scheduling) check_scheduling(*resolved, *scheduling, diagnostics);
+}
+
+std::optional<Scheduling> scheduling_of(const Plan& plan, const Variant& variant, json::Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.errors();
+  json::Document document(json::encode_value(SchedulingPart{{}, *plan.study.schedule}), plan.study.where.place().file);
+  std::vector<json::Replacement> replacements;
+  for (std::size_t f = 0; f < plan.factors.size(); ++f) {
+    if (plan.factors[f].levels.empty()) continue;
+    for (const json::Replacement& each : plan.level_of(variant, f).replacements)
+      if (is_of_scheduling(plan, each.pointer)) replacements.push_back(each);
+  }
+  if (!json::replace(document, replacements, diagnostics)) return std::nullopt;
+  SchedulingPart made;
+  json::decode(document, made, diagnostics);
+  if (diagnostics.errors() != errors_before) return std::nullopt;
+  return made.schedule;
 }
 
 std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics) {

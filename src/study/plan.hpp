@@ -67,6 +67,9 @@ std::string name_of(const Plan& plan, const Variant& variant);
 /// Reports all that is wrong with a variant, as `takt check` does with its scenario.
 void check_variant(const Plan& plan, const Variant& variant, json::Diagnostics& diagnostics);
 
+/// What a study of schedules asks of a variant. Nothing after an error.
+std::optional<Scheduling> scheduling_of(const Plan& plan, const Variant& variant, json::Diagnostics& diagnostics);
+
 /// The scenario of a variant with a seed, still to be resolved. Nothing after an error.
 std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics);
 

@@ -47,6 +47,10 @@ results::RunResult result_of(const scenario::Resolved& resolved, unsigned thread
   return evaluation::evaluate(run, false);
 }
 
+bool keeps_limits(const Plan& plan, const Outcome& outcome) {
+  return std::all_of(plan.limits.begin(), plan.limits.end(), [&](const PlannedLimit& limit) { return limit.holds(outcome.values[limit.measure]); });
+}
+
 class Packer {
  public:
   void number(std::uint64_t value) { text_.append(reinterpret_cast<const char*>(&value), sizeof value); }
@@ -106,16 +110,32 @@ Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario, unsig
   outcome.digest = result.digest;
   outcome.events = result.events;
   for (const PlannedMeasure& measure : plan.measures) outcome.values.push_back(value_of(measure, node));
-  outcome.passes = (!plan.study.requirements_count || result.verdict == results::Verdict::pass) &&
-                   std::all_of(plan.limits.begin(), plan.limits.end(), [&](const PlannedLimit& limit) { return limit.holds(outcome.values[limit.measure]); });
+  outcome.passes = (!plan.study.requirements_count || result.verdict == results::Verdict::pass) && keeps_limits(plan, outcome);
+  return outcome;
+}
+
+Outcome run_variant(const Plan& plan, const Variant& variant, std::uint64_t seed, unsigned threads) {
+  json::Diagnostics diagnostics;
+  const auto scenario = scenario_of(plan, variant, seed, diagnostics);
+  if (!scenario) return impossible(diagnostics);
+  if (!plan.study.schedule) return run_scenario(plan, *scenario, threads);
+  const auto scheduling = scheduling_of(plan, variant, diagnostics);
+  const auto resolved = scheduling ? scenario::resolve(*scenario, diagnostics) : nullptr;
+  if (resolved) check_scheduling(*resolved, *scheduling, diagnostics);
+  if (!resolved || diagnostics.has_errors()) return impossible(diagnostics);
+  const Scheduled made = schedule_point(drawn_problem(*resolved, *scheduling, seed), *scheduling, seed, threads);
+  Outcome outcome;
+  outcome.verdict = made.verdict;
+  outcome.digest = made.digest;
+  outcome.events = made.steps;
+  for (const PlannedMeasure& measure : plan.measures) outcome.values.push_back(value_of(measure, made.figures));
+  outcome.passes = (!plan.study.requirements_count || made.verdict == "scheduled") && keeps_limits(plan, outcome);
   return outcome;
 }
 
 Outcome run_point(const Plan& plan, std::uint64_t point, unsigned threads) {
   const std::uint64_t began = cpu_us_now();
-  json::Diagnostics diagnostics;
-  const auto scenario = scenario_of(plan, plan.variants[plan.variant_of(point)], plan.seed_of(point), diagnostics);
-  Outcome outcome = scenario ? run_scenario(plan, *scenario, threads) : impossible(diagnostics);
+  Outcome outcome = run_variant(plan, plan.variants[plan.variant_of(point)], plan.seed_of(point), threads);
   outcome.cpu_us = cpu_us_now() - began;
   return outcome;
 }

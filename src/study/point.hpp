@@ -26,7 +26,7 @@ struct Outcome {
   Status status = Status::done;
   std::string error;                           ///< why it is not done
   bool passes = false;                         ///< it is done and keeps every limit
-  std::string verdict;                         ///< of the scenario's own requirements
+  std::string verdict;                         ///< of the scenario's own requirements; of a study of schedules scheduled, infeasible or undecided
   std::uint64_t digest = 0;
   std::uint64_t events = 0;
   std::uint64_t cpu_us = 0;                    ///< differs from run to run, as nothing else here does
@@ -35,6 +35,8 @@ struct Outcome {
 
 /// Builds, runs and measures a point in this process: on `threads` threads where that is faster; all but the time is the same for any number.
 Outcome run_point(const Plan& plan, std::uint64_t point, unsigned threads = 1);
+/// The same for any variant and seed.
+Outcome run_variant(const Plan& plan, const Variant& variant, std::uint64_t seed, unsigned threads = 1);
 /// The same for a scenario that somebody else has made.
 Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario, unsigned threads = 1);
 

@@ -8,6 +8,7 @@
 #include "chart/page.hpp"
 #include "chart/svg.hpp"
 #include "study/effects.hpp"
+#include "study/frontier.hpp"
 #include "study/magnitude.hpp"
 #include "study/report_charts.hpp"
 
@@ -63,6 +64,7 @@ class Page {
   std::string take() {
     head();
     answer();
+    feasibility();
     main_effects();
     responses();
     heat_maps();
@@ -123,6 +125,16 @@ class Page {
     add(fmt::format("<p class=\"verdict {}\">{}</p>\n", look, known == 0 ? "no variant has a result" : good == known ? fmt::format("all {} variants pass", known) : fmt::format("{} of {} variants pass", good, known)));
     holds_up_to();
     what_matters();
+  }
+
+  /// Of a study of schedules what it is about.
+  void feasibility() {
+    const auto frontier = frontier_of(content_);
+    if (!frontier) return;
+    charts("Feasibility frontier", fmt::format("Shares of the draws of one number of streams. The frontier is the greatest number up to which at least {:.0f} % of them are scheduled, of it and of each smaller one. What is neither scheduled nor "
+                                               "proved infeasible is undecided after so many attempts of the search.", 100 * frontier_share),
+           frontier_charts(content_, *frontier));
+    add("<p class=\"note\">scheduled / infeasible (proved) / undecided, in % of the draws</p>\n" + frontier_table(content_, *frontier));
   }
 
   void holds_up_to() {
@@ -270,7 +282,7 @@ class Page {
 
   void failing_points() {
     const std::vector<std::size_t> rows = failing_rows(content_);
-    if (rows.empty()) return;
+    if (rows.empty() || frontier_of(content_)) return;   // a draw that has no schedule is an answer, too
     section("Points that do not pass", "By their numbers: takt study shrink FILE POINT finds the least of its faults with which a point still fails, and writes it as a scenario.");
     add("<table><tr><th>point</th><th>variant</th><th>replication</th><th>what it breaks</th></tr>\n");
     for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i)
@@ -314,6 +326,7 @@ std::string text_summary(const Content& content) {
                         content.measures[m].unit.empty() ? "" : " ", content.measures[m].unit,
                         content.rows() - all.size());
   }
+  if (const auto frontier = frontier_of(content)) return text + frontier_text(content, *frontier);
   const std::vector<std::size_t> failing = failing_rows(content);
   constexpr std::size_t most_named = 10;
   for (std::size_t i = 0; i < std::min(failing.size(), most_named); ++i) text += fmt::format("{}{}", i == 0 ? "  points that do not pass: " : ", ", content.point_of(failing[i]));

@@ -148,6 +148,10 @@ class Shrinker {
 
 Shrunk shrink(const Plan& plan, std::uint64_t point, const RunOptions& options) {
   Shrunk shrunk;
+  if (plan.study.schedule) {
+    shrunk.problem = "a study of schedules, whose points are not run and have no faults to leave out";
+    return shrunk;
+  }
   json::Diagnostics diagnostics;
   const Variant& variant = plan.variants[plan.variant_of(point)];
   auto scenario = scenario_of(plan, variant, plan.seed_of(point), diagnostics);

@@ -213,6 +213,7 @@ std::string Store::read_header() {
     if (key == "takt") header_.takt = value;
     if (key == "study") header_.name = value;
     if (key == "digest") header_.digest = value;
+    if (key == "configuration") header_.configuration = value;
     if (key == "variants") header_.variants = std::strtoull(value.c_str(), nullptr, 10);
     if (key == "replications") header_.replications = std::strtoull(value.c_str(), nullptr, 10);
   }

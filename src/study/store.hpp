@@ -24,6 +24,7 @@ struct StoreHeader {
   std::string digest;        ///< of the configuration, 16 hex digits
   std::uint64_t variants = 0;
   std::uint64_t replications = 0;
+  std::string configuration = {};   ///< study and scenario, as JSON
   std::uint64_t points() const { return variants * replications; }
 };
 

@@ -107,7 +107,7 @@ class StudyTest(unittest.TestCase):
 
     def test_shipped_studies_are_sound(self):
         studies = sorted(path for path in (SOURCE / "scenarios" / "studies").glob("*.json") if path.name != "takt-study.schema.json")
-        self.assertEqual(len(studies), 8)
+        self.assertEqual(len(studies), 9)
         for study in studies:
             with self.subTest(study.name):
                 self.run_study(study, "--dry-run", "--quiet")

@@ -52,7 +52,7 @@ def schedule(*paths, routes="search", objective="feasible", limit="10s", seed=1,
     """Routes, phases and gate lists that are found, or why there are none, as `takt schedule` does: of the file of a scenario with automatic gates, or of instances of scheduling problems
     (network and streams one after the other where they are two files).
 
-    A Schedule, or a list of them if the files hold several instances. Names are those of docs/reference/schedule.md. What is found by `limit`, a real time, may depend on the machine; progress is its share.
+    A Schedule, or a list of them if the files hold several instances. Names are those of docs/reference/schedule.md, of a scenario of schedule-scenario.md. What is found by `limit`, a real time, may depend on the machine; progress is its share.
     """
     how = _how_to_schedule(routes=routes, objective=objective, limit=limit, seed=seed, jobs=jobs, entries=entries, gates=gates)
     found = [Schedule(each) for each in _takt.schedule_files([_os.fspath(path) for path in paths], how, progress)]

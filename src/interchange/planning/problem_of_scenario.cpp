@@ -62,7 +62,7 @@ class ProblemWriter {
       if (node.forwards() && !is_none(os.receive)) exported_.lose(where, "the latency of the operating system of a station");
     }
     for (const scenario::TopologyNode& node : r_.topology.nodes) {
-      const auto* const station = std::get_if<scenario::StationNode>(&node.description);
+      const auto* const station = std::get_if<scenario::StationNode>(&node.description.get());
       if (station != nullptr && station->bypass) exported_.lose("node " + node.name, "its bypass relay");
       if (const auto& limits = scenario::ports_of(node.description).gate_limits; limits && limits->entries) entries_[node.name] = *limits->entries;
     }

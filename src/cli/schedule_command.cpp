@@ -198,6 +198,8 @@ void check_change(const ScheduleOptions& options, json::Diagnostics& diagnostics
   const bool is_of_scenario = options.to && (options.files.empty() || is_scenario(options));
   if (!is_of_scenario && (options.scenario_change.transition || options.scenario_change.at || options.scenario_change.lead))
     diagnostics.error(place, "a transition of what is no scenario", {"--transition, --at or --lead", "--to SCENARIO, a scheduled one: of an instance no transition is planned"});
+  if (is_of_scenario && (options.certificate || options.gates || options.objective != "feasible" || options.format == "neutral"))
+    diagnostics.error(place, "an option that a change of a scenario does not have", {"--certificate, --gates, --objective or --format neutral", "--to with --add, --remove or --fail, and where the answer goes"});
 }
 
 /// Of several instances the worst counts: undecided, then infeasible, then scheduled.

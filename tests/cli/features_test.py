@@ -292,7 +292,8 @@ class Check(FeaturesTest):
                 self.assertEqual(status, 2)
                 self.assertIn(told, errors)
             self.assertFalse((folder / "never.json").exists())
-            for wrong, told in (((), "nothing to schedule"), ((folder / "cell.json", "--add", folder / "c.json"), "a change without a schedule"), ((folder / "cell.json", "--at", "1ms"), "a transition of what is no scenario")):
+            for wrong, told in (((), "nothing to schedule"), ((folder / "cell.json", "--add", folder / "c.json"), "a change without a schedule"), ((folder / "cell.json", "--at", "1ms"), "a transition of what is no scenario"),
+                                ((folder / "cell.json", "--to", files[0], "--remove", "b", "--objective", "slack"), "an option that a change of a scenario does not have")):
                 status, _, errors = takt("schedule", *wrong)
                 self.assertEqual(status, 2)
                 self.assertIn(told, errors)

@@ -18,9 +18,9 @@ void Playback::play(sim::TrueTime until) {
     parts_[p].tape->complete(until);
     const std::vector<Note>& notes = parts_[p].tape->notes();
     for (std::uint32_t n = 0; n < notes.size(); ++n)
-      if (notes[n].record.time <= until) places_.push_back({notes[n].record.time, notes[n].node, p, n});
+      if (notes[n].record.time <= until) places_.push_back({notes[n].record.time, !notes[n].is_there_already, notes[n].node, p, n});
   }
-  std::ranges::sort(places_, [](const Place& a, const Place& b) { return std::tie(a.time, a.node, a.tape, a.note) < std::tie(b.time, b.node, b.tape, b.note); });
+  std::ranges::sort(places_, [](const Place& a, const Place& b) { return std::tie(a.time, a.is_happening, a.node, a.tape, a.note) < std::tie(b.time, b.is_happening, b.node, b.tape, b.note); });
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Part& part = parts_[places_[i].tape];
     tell(part, part.tape->notes()[places_[i].note]);

@@ -32,6 +32,7 @@ class Playback {
   /// A note, by what it is ordered.
   struct Place {
     sim::TrueTime time;
+    bool is_happening = true;   // not there already
     std::uint32_t node = 0;
     std::uint32_t tape = 0;
     std::uint32_t note = 0;

@@ -11,7 +11,7 @@ Tape::Tape(models::Network& network, std::uint32_t part, const TapeWants& wants)
   if (!wants.gates) return;
   gates_ = std::make_unique<GateFollower>(network, directory_);
   for (std::uint32_t position = 0; position < directory_.ports().size(); ++position) {
-    show_gates(position, sim::TrueTime());
+    show_gates(position, sim::TrueTime(), true);
     const models::NodeIndex node = directory_.ports()[position].id.node;
     if (!network.has(node) || network.node_clock(node) == nullptr) continue;
     if (clocks_.empty() || clocks_.back()->node != node) {
@@ -36,12 +36,13 @@ void Tape::follow_gates(sim::TrueTime until) {
   }
 }
 
-void Tape::show_gates(std::uint32_t position, sim::TrueTime at) {
+void Tape::show_gates(std::uint32_t position, sim::TrueTime at, bool is_there_already) {
   if (!gates_->has_gates(position)) return;
   const models::PortDirectory::Port& port = directory_.ports()[position];
   Note& note = notes_.emplace_back();
   note.record = {at, static_cast<std::uint32_t>(Occurrence::gates_shown), port.component, gates_->states(position, at), 0};
   note.node = port.id.node.value;
+  note.is_there_already = is_there_already;
 }
 
 void Tape::clock_changed(const ClockOfGates& clock, sim::TrueTime now) {

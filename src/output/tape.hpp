@@ -44,6 +44,7 @@ struct Note {
   sim::TraceRecord record;          ///< of left and came: `where` is the part at the other end, `what` counts the frames of that direction
   std::uint32_t node = none;        ///< where it happens; none: in an application
   Kind kind = Kind::told;
+  bool is_there_already = false;    ///< it was so before anything happened: told before all that happens at that instant
   bool is_last = false;             ///< no copy of the frame shares its record any more
   std::uint32_t life = none;        ///< of the record of a frame, from when it is made to when it is free; none: nobody follows it
   std::uint32_t parent = none;      ///< of separated: the life of the record before
@@ -95,7 +96,7 @@ class Tape final : public sim::TraceSink, public models::CrossingWatcher {
     std::vector<std::uint32_t> positions;   // of its ports
   };
   void follow_gates(sim::TrueTime until);
-  void show_gates(std::uint32_t position, sim::TrueTime at);
+  void show_gates(std::uint32_t position, sim::TrueTime at, bool is_there_already = false);
   void clock_changed(const ClockOfGates& clock, sim::TrueTime now);
   std::uint32_t node_of(const sim::TraceRecord& record) const;
   void keep_frame(Note& note, const models::Frame& frame);

@@ -136,6 +136,25 @@ class All(RecordingsTest):
                 shutil.rmtree(out)
 
 
+class Threads(RecordingsTest):
+    def test_files_are_those_of_one_thread(self):
+        side = 16
+        hosts = side * side * 10
+        network = {"topology": "mesh", "rows": side, "columns": side, "hosts_per_switch": 10, "rate": "1Gbps", "length": "10m", "forwarding_delay": "1us"}
+        streams = [{"name": f"s{h}", "from": f"h{h + 1}", "to": f"h{(h * 37 + 13) % hosts + 1}", "payload": "200B", "every": "1ms", "offset": f"{h * 7919 % 1000000}ns"} for h in range(hosts)]
+        scenario = self.folder / "plant.json"
+        scenario.write_text(json.dumps({"name": "plant", "duration": "1ms", "network": {"generate": [network]}, "streams": streams}), encoding="utf-8")
+        kinds = ["--pcap", "all", "--timeline", "--waves", "--frames"]
+        folders = {threads: self.folder / f"threads-{threads}" for threads in (1, 2)}
+        for threads, out in folders.items():
+            done = subprocess.run([TAKT, "run", str(scenario), "--quiet", "--threads", str(threads), "--out", str(out), *kinds], capture_output=True, text=True, timeout=1000, check=True)
+            self.assertNotIn("instead of", done.stderr)
+        names = sorted(path.name for path in folders[1].iterdir())
+        self.assertLessEqual({"all.pcapng", "timeline.json", "waves.vcd", "frames.csv", "hops.csv", "result.json"}, set(names))
+        for name in names:
+            self.assertEqual((folders[1] / name).read_bytes(), (folders[2] / name).read_bytes(), name)
+
+
 class Folder(RecordingsTest):
     def takt(self, *arguments):
         done = subprocess.run([TAKT, *map(str, arguments)], capture_output=True, text=True, timeout=1000, check=False)

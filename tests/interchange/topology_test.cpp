@@ -74,7 +74,7 @@ TEST(GraphMl, BringsEveryTopologyBack) {
     ASSERT_EQ(again.links.size(), resolved->topology.links.size()) << path;
     for (std::size_t n = 0; n < again.nodes.size(); ++n) {
       EXPECT_EQ(again.nodes[n].name, resolved->topology.nodes[n].name);
-      EXPECT_EQ(again.nodes[n].description.index(), resolved->topology.nodes[n].description.index());
+      EXPECT_EQ(again.nodes[n].description.get().index(), resolved->topology.nodes[n].description.get().index());
     }
     for (std::size_t l = 0; l < again.links.size(); ++l) {
       const models::LinkPlan &a = again.links[l], &b = resolved->topology.links[l];

@@ -66,7 +66,10 @@ TEST(Offsets, MovesWhoStandsInTheWay) {
       add(problem, static_cast<std::uint32_t>(chance.below(6)), 960_ns * period, s);
       load += 1.0 / static_cast<double>(period);
     }
-    for (const ChosenOffset& each : choose_offsets(problem)) EXPECT_TRUE(each.meetings.empty()) << seed;
+    for (const ChosenOffset& each : choose_offsets(problem)) {
+      EXPECT_TRUE(each.meetings.empty()) << seed;
+      EXPECT_EQ(each.offset.ps() % 1'000, 0) << seed << ": gates open on whole ns";
+    }
   }
 }
 

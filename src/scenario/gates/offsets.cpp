@@ -173,7 +173,7 @@ class OffsetSearch {
     const auto phases = schedule::find_phases(static_cast<std::uint32_t>(problem_.gates.ports.size() + queues_.size()), movers, most_attempts);
     if (!phases) return best;
     for (std::uint32_t u = 0; u < problem_.movable.size(); ++u) {
-      chosen_[u].offset = Duration::from_ps((*phases)[u]);
+      chosen_[u].offset = Duration::from_ps(floor_to_ns((*phases)[u]));   // what the movers claim begins and ends on whole ns, so all of them may begin the rest of one earlier
       placed_[u] = true;
     }
     std::size_t meetings = 0;

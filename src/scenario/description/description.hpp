@@ -1,5 +1,4 @@
-// A scenario as its file says it: plain structs, one for each JSON object. The tables that read, write and document them
-// stand in description_tables.cpp; what they mean together is checked by resolve.hpp.
+// A scenario as its file says it: plain structs, one for each JSON object. tables*.cpp read, write and document them; what they mean together is checked by resolve.hpp.
 #pragma once
 
 #include <cstdint>

@@ -82,21 +82,10 @@ class Resolver {
     r_.requirements = requirements_of(r_, diagnostics_);
     if (!diagnostics_.has_errors()) tell_idle(r_, diagnostics_);
     builder_ = nullptr;
-    give_back_room();
+    r_.give_back_room();
   }
 
  private:
-  /// What of a large plant is kept for long, and grew: up to half of it is room for more.
-  void give_back_room() {
-    r_.plan.nodes.shrink_to_fit();
-    r_.plan.links.shrink_to_fit();
-    r_.plan.streams.shrink_to_fit();
-    r_.plan.talkers.shrink_to_fit();
-    r_.plan.filtering.shrink_to_fit();
-    r_.streams.shrink_to_fit();
-    r_.ports.shrink_to_fit();
-  }
-
   /// Of an entry that is no object nothing is known.
   template <class Entry>
   bool is_read(const Entry& entry) const {
@@ -471,9 +460,6 @@ class Resolver {
 };
 
 }  // namespace
-
-Resolved::Resolved() = default;
-Resolved::~Resolved() = default;
 
 std::unique_ptr<Resolved> resolve(Scenario scenario, json::Diagnostics& diagnostics) {
   auto resolved = std::make_unique<Resolved>();

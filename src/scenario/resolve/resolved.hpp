@@ -226,6 +226,8 @@ struct Resolved {
   ~Resolved();
   Resolved(const Resolved&) = delete;
   Resolved& operator=(const Resolved&) = delete;
+  /// What of a large plant is kept for long, and grew: up to half of it is room for more.
+  void give_back_room();
 
   Scenario scenario;
   Topology topology;

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/evaluate.hpp"
-#include "scenario/resolve/resolve.hpp"
-#include "scenario/run/run.hpp"
+#include "live_scenario.hpp"
 #include "sim/random.hpp"
 #include "schedule_check/check.hpp"
 
@@ -18,26 +16,6 @@ namespace {
 using namespace sim::literals;  // NOLINT
 using scenario::Resolved;
 using sim::Duration;
-
-std::unique_ptr<Resolved> load(const std::string& text, std::string* problems = nullptr) {
-  json::Diagnostics diagnostics;
-  auto resolved = scenario::load_text(text, "s.json", {}, diagnostics);
-  if (problems != nullptr) *problems = diagnostics.to_text();
-  else EXPECT_TRUE(resolved) << diagnostics.to_text();
-  return resolved;
-}
-
-results::RunResult run(const Resolved& resolved) {
-  scenario::Run live(resolved);
-  live.advance();
-  return evaluation::evaluate(live, false);
-}
-
-const results::StreamResult& stream(const results::RunResult& result, const std::string& name) {
-  for (const results::StreamResult& each : result.streams)
-    if (each.name == name) return each;
-  throw std::runtime_error("no stream " + name);
-}
 
 /// Three switches in a line at 1 Gb/s with 1 us each, two hosts at each; h1 to h5 and h4 to h1 are scheduled.
 std::string line(const std::string& gates, const std::string& load, const std::string& os = R"("none")", int from_us = 0, const std::string& more = "") {
@@ -57,62 +35,62 @@ const std::string both_classes = R"({"plan": "auto", "classes": [5, 6]})";
 TEST(AutoGates, LatencyIsTheSumOfTheDelays) {
   const Duration a = 4 * (1'264_ns + 50_ns) + 3 * 1_us;
   const Duration b = 3 * (1'264_ns + 50_ns) + 2 * 1_us;
-  const auto gated = load(line(both_classes, three_loads));
-  const results::RunResult result = run(*gated);
-  EXPECT_EQ(stream(result, "a").delivered, 200u);
-  EXPECT_EQ(stream(result, "a").latency->min, a);
-  EXPECT_EQ(stream(result, "a").latency->max, a);
-  EXPECT_EQ(stream(result, "b").delivered, 400u);
-  EXPECT_EQ(stream(result, "b").latency->min, b);
-  EXPECT_EQ(stream(result, "b").latency->max, b);
-  EXPECT_GT(stream(result, "x").delivered, 2'000u) << "the others get what is left";
-  EXPECT_GT(stream(result, "z").delivered, 2'000u) << "a more urgent class among them";
-  const results::RunResult open = run(*load(line("\"none\"", three_loads)));
-  EXPECT_GT(stream(open, "a").latency->max, a + 5_us) << "without gates it waits";
+  const auto gated = load_live(line(both_classes, three_loads));
+  const results::RunResult result = run_live(*gated);
+  EXPECT_EQ(stream_of(result, "a").delivered, 200u);
+  EXPECT_EQ(stream_of(result, "a").latency->min, a);
+  EXPECT_EQ(stream_of(result, "a").latency->max, a);
+  EXPECT_EQ(stream_of(result, "b").delivered, 400u);
+  EXPECT_EQ(stream_of(result, "b").latency->min, b);
+  EXPECT_EQ(stream_of(result, "b").latency->max, b);
+  EXPECT_GT(stream_of(result, "x").delivered, 2'000u) << "the others get what is left";
+  EXPECT_GT(stream_of(result, "z").delivered, 2'000u) << "a more urgent class among them";
+  const results::RunResult open = run_live(*load_live(line("\"none\"", three_loads)));
+  EXPECT_GT(stream_of(open, "a").latency->max, a + 5_us) << "without gates it waits";
 }
 
 TEST(AutoGates, OtherTrafficMovesNothing) {
-  const results::RunResult loaded = run(*load(line(both_classes, three_loads)));
-  const results::RunResult alone = run(*load(line(both_classes, "")));
+  const results::RunResult loaded = run_live(*load_live(line(both_classes, three_loads)));
+  const results::RunResult alone = run_live(*load_live(line(both_classes, "")));
   for (const char* name : {"a", "b"}) {
-    EXPECT_EQ(stream(loaded, name).latency->min, stream(alone, name).latency->min);
-    EXPECT_EQ(stream(loaded, name).latency->max, stream(alone, name).latency->max);
+    EXPECT_EQ(stream_of(loaded, name).latency->min, stream_of(alone, name).latency->min);
+    EXPECT_EQ(stream_of(loaded, name).latency->max, stream_of(alone, name).latency->max);
   }
 }
 
 // What the operating system takes ends at the talker's gate: the latency is the longest there is, always.
 TEST(AutoGates, TheOperatingSystemDoesNotShow) {
   const std::string os = R"({"transmit": {"uniform": {"from": "1us", "to": "20us"}}})";
-  const results::RunResult result = run(*load(line(both_classes, three_loads, os)));
-  EXPECT_EQ(stream(result, "a").latency->min, 20_us + 4 * (1'264_ns + 50_ns) + 3 * 1_us);
-  EXPECT_EQ(stream(result, "a").latency->max, stream(result, "a").latency->min);
-  EXPECT_GT(stream(run(*load(line("\"none\"", "", os))), "a").latency->max - stream(run(*load(line("\"none\"", "", os))), "a").latency->min, 10_us);
+  const results::RunResult result = run_live(*load_live(line(both_classes, three_loads, os)));
+  EXPECT_EQ(stream_of(result, "a").latency->min, 20_us + 4 * (1'264_ns + 50_ns) + 3 * 1_us);
+  EXPECT_EQ(stream_of(result, "a").latency->max, stream_of(result, "a").latency->min);
+  EXPECT_GT(stream_of(run_live(*load_live(line("\"none\"", "", os))), "a").latency->max - stream_of(run_live(*load_live(line("\"none\"", "", os))), "a").latency->min, 10_us);
 }
 
 // Real clocks, once they are synchronised: nobody waits for longer than two margins.
 TEST(AutoGates, ClocksWithinTheMargin) {
   const std::string clocks = R"(, "seed": 2, "clocks": {"all": {"offset": {"from": "-50ppm", "to": "50ppm"}, "granularity": "8ns"}, "gptp": {"nodes": {"sw1": {"priority1": 100}}, "servo": "drift-tracking"}})";
   const std::string slow_load = R"(, {"name": "x", "from": "h2", "to": "h6", "payload": "1400B", "exponential": "60us", "pcp": 0})";
-  const results::RunResult gated = run(*load(line(R"({"plan": "auto", "classes": [5, 6], "margin": "500ns"})", slow_load, "\"none\"", 6'000'000, clocks)));
-  ASSERT_GT(stream(gated, "a").delivered, 1'900u);
-  EXPECT_LE(stream(gated, "a").latency->max - stream(gated, "a").latency->min, 2 * 500_ns);
-  EXPECT_GE(stream(gated, "a").latency->min, 4 * (1'264_ns + 50_ns) + 3 * 1_us - 2_ns);
+  const results::RunResult gated = run_live(*load_live(line(R"({"plan": "auto", "classes": [5, 6], "margin": "500ns"})", slow_load, "\"none\"", 6'000'000, clocks)));
+  ASSERT_GT(stream_of(gated, "a").delivered, 1'900u);
+  EXPECT_LE(stream_of(gated, "a").latency->max - stream_of(gated, "a").latency->min, 2 * 500_ns);
+  EXPECT_GE(stream_of(gated, "a").latency->min, 4 * (1'264_ns + 50_ns) + 3 * 1_us - 2_ns);
 }
 
 // The copy has the lists, loads, and runs to the same digest.
 TEST(AutoGates, TheResolvedCopyListsThem) {
-  const auto original = load(line(both_classes, three_loads));
+  const auto original = load_live(line(both_classes, three_loads));
   const std::string copy = json::encode(original->scenario);
   EXPECT_NE(copy.find("\"listed\""), std::string::npos);
-  const auto again = load(copy);
+  const auto again = load_live(copy);
   EXPECT_EQ(again->scenario, original->scenario);
   EXPECT_FALSE(again->gates) << "nothing is laid out a second time";
-  EXPECT_EQ(run(*again).digest, run(*original).digest);
+  EXPECT_EQ(run_live(*again).digest, run_live(*original).digest);
 }
 
 // The ports run what was checked.
 TEST(AutoGates, PortsHaveTheLists) {
-  const auto resolved = load(line(both_classes, three_loads));
+  const auto resolved = load_live(line(both_classes, three_loads));
   ASSERT_TRUE(resolved->gates);
   EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
   std::size_t gated = 0;
@@ -163,23 +141,23 @@ TEST(AutoGates, RandomNetworks) {
       const std::string one = fmt::format(R"(, {{"name": "s{}", "from": "h{}", "to": "h{}", "payload": "{}B", "every": "{}us", "offset": "{}us", "pcp": 4}})", i, from, to, 20 + chance.below(400),
                                           chance.below(2) == 0 ? 500 : 1'000, chance.below(900));
       std::string problems;
-      if (load(text(streams + one, true), &problems)) {
+      if (load_live(text(streams + one, true), &problems)) {
         streams += one;
         names.push_back("s" + std::to_string(i));
       } else {
         EXPECT_NE(problems.find("windows that overlap"), std::string::npos) << problems;
       }
     }
-    const auto resolved = load(text(streams, true));
+    const auto resolved = load_live(text(streams, true));
     ASSERT_TRUE(resolved);
     EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
-    const results::RunResult loaded = run(*resolved);
-    const results::RunResult alone = run(*load(text(streams, false)));
+    const results::RunResult loaded = run_live(*resolved);
+    const results::RunResult alone = run_live(*load_live(text(streams, false)));
     for (const std::string& name : names) {
       ++scheduled;
-      EXPECT_EQ(stream(loaded, name).latency->min, stream(loaded, name).latency->max) << name << ", seed " << seed;
-      EXPECT_EQ(stream(loaded, name).latency->max, stream(alone, name).latency->max) << name << ", seed " << seed;
-      EXPECT_EQ(stream(loaded, name).dropped_in_all(), 0u);
+      EXPECT_EQ(stream_of(loaded, name).latency->min, stream_of(loaded, name).latency->max) << name << ", seed " << seed;
+      EXPECT_EQ(stream_of(loaded, name).latency->max, stream_of(alone, name).latency->max) << name << ", seed " << seed;
+      EXPECT_EQ(stream_of(loaded, name).dropped_in_all(), 0u);
     }
   }
   EXPECT_GT(scheduled, 60u);

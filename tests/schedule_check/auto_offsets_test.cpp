@@ -9,11 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "evaluation/evaluate.hpp"
 #include "json/fields.hpp"
+#include "live_scenario.hpp"
 #include "models/ethernet/sizes.hpp"
-#include "scenario/resolve/resolve.hpp"
-#include "scenario/run/run.hpp"
 #include "schedule_check/check.hpp"
 #include "sim/random.hpp"
 
@@ -35,12 +33,6 @@ Loaded load(const std::string& text, const std::vector<std::string>& overrides =
   loaded.problems = diagnostics.to_text();
   return loaded;
 }
-results::RunResult run(const Resolved& resolved) {
-  scenario::Run live(resolved);
-  live.advance();
-  return evaluation::evaluate(live, false);
-}
-
 /// The way of each frame if nothing holds it up, the quickest and the slowest of all listeners: hops of one rate, cables of 50 ns, switches
 /// that take `forwarding`. Not of redundant streams, whose copies are longer.
 struct Alone {
@@ -65,7 +57,7 @@ Alone alone(const Resolved& r, std::size_t stream, Duration octet, Duration forw
   return made;
 }
 void expect_nobody_waits(const Resolved& r, Duration octet, Duration forwarding) {
-  const results::RunResult result = run(r);
+  const results::RunResult result = run_live(r);
   for (std::size_t s = 0; s < result.streams.size(); ++s) {
     SCOPED_TRACE(result.streams[s].name);
     ASSERT_TRUE(result.streams[s].latency);
@@ -109,9 +101,9 @@ TEST(AutoOffsets, WhatIsChosenIsWritten) {
     const Loaded again = load(copy);
     ASSERT_TRUE(again.resolved) << again.problems;
     EXPECT_EQ(again.resolved->scenario, loaded.resolved->scenario);
-    EXPECT_EQ(run(*again.resolved).digest, run(*loaded.resolved).digest);
+    EXPECT_EQ(run_live(*again.resolved).digest, run_live(*loaded.resolved).digest);
     const Loaded by_number = load(two("\"1.36us\"", gates));
-    EXPECT_EQ(run(*by_number.resolved).digest, run(*loaded.resolved).digest) << "it is as if the number had been there";
+    EXPECT_EQ(run_live(*by_number.resolved).digest, run_live(*loaded.resolved).digest) << "it is as if the number had been there";
     expect_nobody_waits(*loaded.resolved, 8_ns, 1_us);
   }
 }
@@ -150,7 +142,7 @@ TEST(AutoOffsets, Programs) {
       EXPECT_EQ(different.size(), 4u);
       EXPECT_EQ(loaded.resolved->chosen_offsets.size(), phases.empty() ? 4u : 3u);
       if (!phases.empty()) { EXPECT_EQ(plant::phase_of(loaded.resolved->scenario.programs[0], "h3"), Duration()); }
-      const results::RunResult result = run(*loaded.resolved);
+      const results::RunResult result = run_live(*loaded.resolved);
       for (std::size_t s = 0; s < result.streams.size(); ++s) {
         if (result.streams[s].name.find("/state/") == std::string::npos) continue;   // data waits for its own participant's state
         const Alone way = alone(*loaded.resolved, s, 8_ns, 1_us);
@@ -193,7 +185,7 @@ TEST(AutoOffsets, RandomTrafficOverRings) {
     ASSERT_TRUE(loaded.resolved) << loaded.problems;
     EXPECT_EQ(loaded.problems.find("meet"), std::string::npos) << loaded.problems;
     redundant += loaded.resolved->redundancies.size();
-    const results::RunResult result = run(*loaded.resolved);
+    const results::RunResult result = run_live(*loaded.resolved);
     for (std::size_t s = 0; s < result.streams.size(); ++s) {
       const bool is_copied = std::ranges::any_of(loaded.resolved->redundancies, [&](const scenario::ResolvedRedundancy& each) { return each.stream.value == s; });
       const Alone way = alone(*loaded.resolved, s, 8_ns, 1_us);
@@ -225,14 +217,14 @@ TEST(AutoOffsets, CutThrough) {
   const std::string switches = R"(, "egress": [{"cut_through": [6]}])";
   const Loaded together = load(along_a_line(switches));
   ASSERT_TRUE(together.resolved) << together.problems;
-  const results::RunResult result = run(*together.resolved);
+  const results::RunResult result = run_live(*together.resolved);
   bool is_cut_through = false;
   for (std::size_t s = 0; s < 8; ++s) is_cut_through = is_cut_through || result.streams[s].latency->max < alone(*together.resolved, s, 8_ns, 1_us).least;
   EXPECT_TRUE(is_cut_through);
   for (int i = 0; i < 8; ++i) {
     const Loaded single = load(along_a_line(switches, i));
     ASSERT_TRUE(single.resolved) << single.problems;
-    const results::RunResult way = run(*single.resolved);
+    const results::RunResult way = run_live(*single.resolved);
     EXPECT_EQ(result.streams[static_cast<std::size_t>(i)].latency->min.ps(), way.streams[0].latency->min.ps()) << i;
     EXPECT_EQ(result.streams[static_cast<std::size_t>(i)].latency->max.ps(), way.streams[0].latency->max.ps()) << i;
   }
@@ -247,7 +239,7 @@ TEST(AutoOffsets, Stations) {
   const Loaded loaded = load(fmt::format(R"({{"name": "t", "duration": "20ms", "network": {{"generate": [{{"topology": "line", "stations": 6, "forwarding_delay": "1us"}}]}}, "streams": [{}]}})", streams));
   ASSERT_TRUE(loaded.resolved) << loaded.problems;
   EXPECT_EQ(loaded.problems, "");
-  const results::RunResult result = run(*loaded.resolved);
+  const results::RunResult result = run_live(*loaded.resolved);
   for (const results::StreamResult& each : result.streams) EXPECT_EQ(each.latency->min.ps(), each.latency->max.ps()) << each.name;
 }
 
@@ -261,7 +253,7 @@ TEST(AutoOffsets, OfAProgramWhosePhasesAreGiven) {
 TEST(AutoOffsets, ForwardingJitter) {
   const Loaded loaded = load(along_a_line(R"(, "forwarding_jitter": {"uniform": {"from": "0ns", "to": "160ns"}})"));
   ASSERT_TRUE(loaded.resolved) << loaded.problems;
-  const results::RunResult result = run(*loaded.resolved);
+  const results::RunResult result = run_live(*loaded.resolved);
   for (std::size_t s = 0; s < 8; ++s) {
     const Alone way = alone(*loaded.resolved, s, 8_ns, 1_us);
     const auto switches = static_cast<std::int64_t>(loaded.resolved->streams[s].paths[0].size()) - 2;

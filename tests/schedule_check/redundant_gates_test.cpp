@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "analysis/bounds.hpp"
-#include "evaluation/evaluate.hpp"
-#include "scenario/resolve/resolve.hpp"
-#include "scenario/run/run.hpp"
+#include "live_scenario.hpp"
 #include "schedule_check/check.hpp"
 #include "sim/random.hpp"
 
@@ -19,26 +17,6 @@ namespace {
 using namespace sim::literals;  // NOLINT
 using scenario::Resolved;
 using sim::Duration;
-
-std::unique_ptr<Resolved> load(const std::string& text, std::string* problems = nullptr) {
-  json::Diagnostics diagnostics;
-  auto resolved = scenario::load_text(text, "s.json", {}, diagnostics);
-  if (problems != nullptr) *problems = diagnostics.to_text();
-  else EXPECT_TRUE(resolved) << diagnostics.to_text();
-  return resolved;
-}
-
-results::RunResult run(const Resolved& resolved) {
-  scenario::Run live(resolved);
-  live.advance();
-  return evaluation::evaluate(live, false);
-}
-
-const results::StreamResult& stream(const results::RunResult& result, const std::string& name) {
-  for (const results::StreamResult& each : result.streams)
-    if (each.name == name) return each;
-  throw std::runtime_error("no stream " + name);
-}
 
 Duration bound_of(const Resolved& resolved, const std::string& name) {
   for (const analysis::StreamBound& each : analysis::bound(resolved).streams)
@@ -61,28 +39,28 @@ const std::string other = R"(, {"name": "other", "from": "h2", "to": "h3", "payl
 Duration way(int links_between) { return 2 * (1'264_ns + 250_ns) + links_between * (1'312_ns + 250_ns) + (links_between + 1) * 1_us; }
 
 TEST(RedundantGates, EitherWayHasItsWindows) {
-  const auto resolved = load(ring(8, control + other));
+  const auto resolved = load_live(ring(8, control + other));
   EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
-  const results::RunResult whole = run(*resolved);
-  EXPECT_EQ(stream(whole, "control").latency->min, way(2));
-  EXPECT_EQ(stream(whole, "control").latency->max, way(2));
+  const results::RunResult whole = run_live(*resolved);
+  EXPECT_EQ(stream_of(whole, "control").latency->min, way(2));
+  EXPECT_EQ(stream_of(whole, "control").latency->max, way(2));
   EXPECT_EQ(bound_of(*resolved, "control"), way(6)) << "a copy may be lost, and then the other one counts";
-  EXPECT_EQ(bound_of(*resolved, "other"), stream(whole, "other").latency->max);
-  const auto broken = load(ring(8, control + other, R"(, "faults": [{"kind": "link-down", "link": ["sw1", "sw2"], "at": "20.05ms"}])"));
-  const results::RunResult half = run(*broken);
-  EXPECT_EQ(stream(half, "control").delivered, 160u);
-  EXPECT_EQ(stream(half, "control").lost, 0u);
-  EXPECT_EQ(stream(half, "control").latency->max, way(6)) << "no window later";
+  EXPECT_EQ(bound_of(*resolved, "other"), stream_of(whole, "other").latency->max);
+  const auto broken = load_live(ring(8, control + other, R"(, "faults": [{"kind": "link-down", "link": ["sw1", "sw2"], "at": "20.05ms"}])"));
+  const results::RunResult half = run_live(*broken);
+  EXPECT_EQ(stream_of(half, "control").delivered, 160u);
+  EXPECT_EQ(stream_of(half, "control").lost, 0u);
+  EXPECT_EQ(stream_of(half, "control").latency->max, way(6)) << "no window later";
   EXPECT_EQ(bound_of(*broken, "control"), way(6));
 }
 
 TEST(RedundantGates, WaysOfOneLengthShareAWindow) {
-  const auto resolved = load(ring(4, control));
+  const auto resolved = load_live(ring(4, control));
   EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
   EXPECT_EQ(bound_of(*resolved, "control"), way(2));
   for (const char* link : {R"(["sw1", "sw2"])", R"(["sw3", "sw4"])"}) {
-    const auto broken = load(ring(4, control, fmt::format(R"(, "faults": [{{"kind": "link-down", "link": {}, "at": "20.05ms"}}])", link)));
-    EXPECT_EQ(stream(run(*broken), "control").latency->max, way(2)) << link;
+    const auto broken = load_live(ring(4, control, fmt::format(R"(, "faults": [{{"kind": "link-down", "link": {}, "at": "20.05ms"}}])", link)));
+    EXPECT_EQ(stream_of(run_live(*broken), "control").latency->max, way(2)) << link;
   }
 }
 
@@ -95,10 +73,10 @@ TEST(RedundantGates, CopiesThatTheTalkerSends) {
     "gates": {"plan": "auto", "classes": [6]},
     "streams": [{"name": "control", "from": "t", "to": "l", "payload": "100B", "every": "250us", "offset": "auto", "pcp": 6, "redundancy": 2},
                 {"name": "x", "from": "x", "to": "l", "payload": "1400B", "exponential": "30us", "pcp": 0}]})";
-  const auto resolved = load(text);
+  const auto resolved = load_live(text);
   EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
-  const results::RunResult result = run(*resolved);
-  const results::StreamResult& found = stream(result, "control");
+  const results::RunResult result = run_live(*resolved);
+  const results::StreamResult& found = stream_of(result, "control");
   EXPECT_EQ(found.latency->min, found.latency->max);
   EXPECT_LT(found.latency->max, bound_of(*resolved, "control")) << "the longer way is one hop longer";
 }
@@ -111,21 +89,21 @@ TEST(RedundantGates, ProgramsWhoseMessagesGoTwice) {
       "process_data": [{{"name": "forth", "from": "h1", "fields": {{"values": {{"type": "Double", "count": 20}}}}}}]}}],
     "streams": [{{"name": "x", "from": "h4", "to": "h6", "payload": "1400B", "exponential": "30us", "pcp": 0}}]}})", slaves);
   };
-  const auto resolved = load(text(R"(["h2", "h6"])"));
+  const auto resolved = load_live(text(R"(["h2", "h6"])"));
   EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
-  const results::RunResult result = run(*resolved);
+  const results::RunResult result = run_live(*resolved);
   for (const char* name : {"p/state/h1", "p/state/h2", "p/state/h6", "p/forth"}) {
-    EXPECT_LE(stream(result, name).latency->max, bound_of(*resolved, name)) << name;
+    EXPECT_LE(stream_of(result, name).latency->max, bound_of(*resolved, name)) << name;
     EXPECT_LT(bound_of(*resolved, name), 30_us) << name << ": no copy waits for the next turn";
   }
   // The state that has gone the long way round and the data that have come the short way meet at one port, whatever the offsets.
   std::string problems;
-  EXPECT_FALSE(load(text(R"(["h3", "h5"])"), &problems));
+  EXPECT_FALSE(load_live(text(R"(["h3", "h5"])"), &problems));
   EXPECT_NE(problems.find("windows that overlap"), std::string::npos) << problems;
 }
 
 TEST(RedundantGates, WhatIsWrongWithAWindowIsFound) {
-  const auto resolved = load(ring(8, control + other));
+  const auto resolved = load_live(ring(8, control + other));
   const scenario::GateProblem& problem = resolved->gates->problem;
   std::size_t merged = 0;
   for (std::size_t h = 0; h < problem.streams[0].hops.size(); ++h) {
@@ -145,7 +123,7 @@ TEST(RedundantGates, WhatIsWrongWithAWindowIsFound) {
 
 TEST(RedundantGates, ALadderIsRefused) {
   std::string problems;
-  EXPECT_FALSE(load(ring(6, R"({"name": "control", "from": "h1", "to": "h3", "payload": "100B", "every": "250us", "offset": "auto", "pcp": 6,
+  EXPECT_FALSE(load_live(ring(6, R"({"name": "control", "from": "h1", "to": "h3", "payload": "100B", "every": "250us", "offset": "auto", "pcp": 6,
     "redundancy": {"ladder": true, "paths": [["h1", "sw1", "sw2", "sw3", "h3"], ["h1", "sw1", "sw6", "sw5", "sw4", "sw3", "h3"]]}})"), &problems));
   EXPECT_NE(problems.find("ladder"), std::string::npos) << problems;
 }
@@ -166,7 +144,7 @@ TEST(RedundantGates, RandomRings) {
       const std::string one = fmt::format(R"({}{{"name": "s{}", "from": "h{}", "to": "h{}", "payload": "{}B", "every": "{}us", "offset": "auto", "pcp": 6{}}})", streams.empty() ? "" : ", ", i, from, to, 40 + chance.below(600),
                                           chance.below(2) == 0 ? 250 : 500, chance.below(3) == 0 ? "" : R"(, "redundancy": 2)");
       std::string problems;
-      if (!load(ring(switches, streams + one, "", margin), &problems)) {
+      if (!load_live(ring(switches, streams + one, "", margin), &problems)) {
         EXPECT_NE(problems.find("no offset found"), std::string::npos) << problems;
         continue;
       }
@@ -176,12 +154,12 @@ TEST(RedundantGates, RandomRings) {
     ASSERT_FALSE(names.empty());
     for (int cut = 0; cut <= switches; ++cut) {   // 0: none
       const std::string fault = cut == 0 ? "" : fmt::format(R"(, "faults": [{{"kind": "link-down", "link": ["sw{}", "sw{}"], "at": "0s"}}])", cut, cut % switches + 1);
-      const auto resolved = load(ring(switches, streams, fault, margin));
+      const auto resolved = load_live(ring(switches, streams, fault, margin));
       ASSERT_TRUE(resolved);
       EXPECT_TRUE(check(resolved->gates->problem, resolved->gates->schedule).empty());
-      const results::RunResult result = run(*resolved);
+      const results::RunResult result = run_live(*resolved);
       for (const std::string& name : names) {
-        const results::StreamResult& found = stream(result, name);
+        const results::StreamResult& found = stream_of(result, name);
         if (!found.latency) continue;   // a stream without redundancy, cut
         ++scheduled;
         EXPECT_EQ(found.latency->min, found.latency->max) << name << ", seed " << seed << ", cut " << cut;

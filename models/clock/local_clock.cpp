@@ -84,6 +84,7 @@ void LocalClock::begin_segment(sim::TrueTime now, sim::Duration step) {
   TAKT_CHECK(now >= present_.start && now != sim::TrueTime::never(), "a clock changes in the order of true time");
   const ClockRate rate = hardware_rate_ * ClockRate::one_plus(adjustment_);
   if (rate == present_.rate && step == sim::Duration()) return;
+  for (ClockListener* const listener : listeners_) listener->clock_will_change(*this, now);
   ideal_ = false;
   Segment next = present_;
   next.start = now;

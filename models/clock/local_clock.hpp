@@ -27,6 +27,8 @@ class LocalClock;
 class ClockListener {
  public:
   virtual ~ClockListener() = default;
+  /// The clock is about to do so; it still answers with the map that it had. For who works out late what was before: after a step backwards, times that come twice are the second ones.
+  virtual void clock_will_change(const LocalClock& clock, sim::TrueTime now) { static_cast<void>(clock), static_cast<void>(now); }
   /// The clock has changed its rate or was stepped, at `now`; it answers with the new map already.
   virtual void clock_changed(const LocalClock& clock, sim::TrueTime now) = 0;
 };

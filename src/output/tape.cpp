@@ -46,7 +46,6 @@ void Tape::show_gates(std::uint32_t position, sim::TrueTime at, bool is_there_al
 }
 
 void Tape::clock_changed(const ClockOfGates& clock, sim::TrueTime now) {
-  follow_gates(now);
   for (const std::uint32_t position : clock.positions) {
     gates_->look_at(position, now);
     show_gates(position, now);

@@ -90,6 +90,7 @@ class Tape final : public sim::TraceSink, public models::CrossingWatcher {
  private:
   /// Of a node whose gates go by a clock of its own.
   struct ClockOfGates final : models::ClockListener {
+    void clock_will_change(const models::LocalClock&, sim::TrueTime now) override { tape->follow_gates(now); }
     void clock_changed(const models::LocalClock&, sim::TrueTime now) override { tape->clock_changed(*this, now); }
     Tape* tape = nullptr;
     models::NodeIndex node;

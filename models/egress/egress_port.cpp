@@ -106,10 +106,10 @@ void EgressPort::pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame
     return;
   }
   admit(simulation, frame);
+  if (queues_.empty()) return;   // a frame that found no room is no more, and nobody waits
   path_ = Path::general;
   promised_ = clock_->true_after(answer.ask_again, now);
-  // A frame that found no room is no more.
-  if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, promised_);
+  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, promised_);
   wake_at(simulation, promised_);
 }
 
@@ -136,8 +136,8 @@ void EgressPort::pass_shaping_exactly(sim::Simulation& simulation, FrameIndex fr
   admit(simulation, frame);
   find_path();
   promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
-  // As above.
-  if (simulation.trace() != nullptr && !queues_.empty()) [[unlikely]] tell_refusal(simulation, q, frame, ready);
+  if (queues_.empty()) return;   // as above
+  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
   wake_at(simulation, ready);
 }
 
@@ -192,7 +192,7 @@ inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame
   }
   shaping_->frame_waits(simulation.now(), class_of(frame));
   admit(simulation, frame);
-  wake_at(simulation, link_.free_at());
+  if (!queues_.empty()) wake_at(simulation, link_.free_at());
 }
 
 /// The common case of a port that wakes up: frames of one class wait.

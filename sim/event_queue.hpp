@@ -228,7 +228,7 @@ class EventQueue {
   static constexpr std::uint32_t none = 0xFFFF'FFFF;
   static constexpr std::size_t near_only_limit = 64;
   /// Widths of buckets, as powers of two ps. What many components do at one instant says nothing of how densely events lie; 66 ns are less than a short frame takes, so that
-  /// a bucket gets hardly anything while it is worked on, and enough that all buckets together reach beyond a cycle.
+  /// a bucket gets hardly anything while it is worked on; 32,768 of them reach 2 ms.
   static constexpr int narrowest_log2 = 16;
   static constexpr int widest_log2 = 40;
   static_assert(near_only_limit >= NearEvents::most_sorted, "a near part that is a sorted array is never crowded");

@@ -5,11 +5,22 @@
 
 namespace takt::sim {
 
-void NearEvents::load(std::vector<Event>& events) {
-  TAKT_CHECK(empty(), "events are loaded when none are left");
+void NearEvents::load(std::vector<Event>& events, EventSorter& sorter) {
+  TAKT_CHECK(!has_rest(), "events are loaded when none are left");
+  sorter.sort(events);
   std::swap(batch_, events);
-  std::sort(batch_.begin(), batch_.end(), [](const Event& a, const Event& b) { return b < a; });
-  find_rest_time();
+  events.clear();
+  refill();
+}
+
+void NearEvents::load_few(std::span<const Event* const> events, TrueTime start, int span_log2) {
+  move_up(static_cast<std::uint32_t>(events.size()));
+  sort_few(events, start, span_log2, sorted_.data());
+}
+
+inline void NearEvents::move_up(std::uint32_t places) {
+  for (std::uint32_t i = count_; i-- > 0;) sorted_[i + places] = sorted_[i];
+  count_ += places;
 }
 
 void NearEvents::find_rest_time() {
@@ -48,52 +59,85 @@ Event NearEvents::take_of_rest() {
 }
 
 void NearEvents::refill() {
-  std::uint32_t taken = 0;
-  if (heap_.empty()) {
-    taken = static_cast<std::uint32_t>(std::min<std::size_t>(refilled, batch_.size()));
-    std::copy(batch_.end() - taken, batch_.end(), sorted_.begin());
-    batch_.resize(batch_.size() - taken);
-    count_ = taken;
-    rest_time_ = batch_.empty() ? TrueTime::never() : batch_.back().time;
+  const auto most = static_cast<std::uint32_t>(std::min<std::size_t>(refilled - count_, batch_.size()));
+  std::uint32_t taken = most;
+  if (!heap_.empty()) {
+    const TrueTime end = heap_.first_time();
+    for (taken = 0; taken < most && batch_[batch_.size() - 1 - taken].time < end;) ++taken;
+  }
+  if (taken == 0) {
+    refill_one_by_one();
     return;
   }
-  while (taken < refilled && has_rest()) sorted_[most_sorted - ++taken] = take_of_rest();   // the first at the top
-  std::copy(sorted_.end() - taken, sorted_.end(), sorted_.begin());
-  count_ = taken;
+  move_up(taken);
+  std::copy(batch_.end() - taken, batch_.end(), sorted_.begin());
+  batch_.resize(batch_.size() - taken);
   find_rest_time();
 }
 
+/// Batch and heap have events of one time, or the heap the earlier ones.
+void NearEvents::refill_one_by_one() {
+  std::array<Event, refilled> next;   // the first one at the end
+  std::uint32_t taken = 0;
+  while (count_ + taken < refilled && has_rest()) next[refilled - ++taken] = take_of_rest();
+  move_up(taken);
+  std::copy(next.end() - taken, next.end(), sorted_.begin());
+  find_rest_time();
+}
+
+/// The way of nearly all in a large network calls nothing, so that it saves no registers.
 void EventQueue::push_elsewhere(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+  if (time < near_end_ || time >= horizon_ || free_ == none) [[unlikely]]
+    push_seldom(time, order, serial_kind, argument);
+  else
+    put_into_bucket(time, order, serial_kind, argument);
+}
+
+void EventQueue::push_seldom(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
   const Event event(time, order, serial_kind, argument);
   if (time >= near_end_) {
     push_far(event);
     return;
   }
   near_.push(event);
-  if (near_.size() > crowded_) spread();
+  if (near_.size() > crowded_) spread(widest_log2);
 }
 
 void EventQueue::push_far(const Event& event) {
-  ++waiting_;
+  if (free_ == none) make_slots();
   if (event.time < horizon_)
-    put_into_bucket(event);
+    put_into_bucket(event.time, event.order, event.serial_kind, event.argument);
   else
     beyond_.push(event);
 }
 
-void EventQueue::put_into_bucket(const Event& event) {
-  std::uint32_t slot = free_;
-  if (slot == none) {
-    slot = static_cast<std::uint32_t>(pool_.size());
-    pool_.push_back({});
-  } else {
-    free_ = pool_[slot].next;
-  }
-  const std::size_t bucket = bucket_of(event.time);
-  pool_[slot] = {event, buckets_[bucket]};
-  buckets_[bucket] = slot;
+/// Precondition: a slot is free.
+inline void EventQueue::put_into_bucket(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+  const std::uint32_t slot = free_;
+  const std::size_t bucket = bucket_of(time);
+  std::uint32_t& next = next_[slot];
+  std::uint32_t& head = buckets_[bucket];
+  Event& event = pool_[slot].event;
+  event.time = time;
+  event.order = order;
+  event.serial_kind = serial_kind;
+  event.argument = argument;
+  free_ = next;
+  next = head;
+  head = slot;
   occupied_[bucket / 64] |= 1ULL << (bucket % 64);
   ++in_buckets_;
+}
+
+/// So many more, in a row.
+void EventQueue::make_slots() {
+  constexpr std::size_t more = 64;
+  const std::size_t had = pool_.size();
+  pool_.resize(had + more);
+  next_.resize(had + more);
+  for (std::size_t slot = had; slot < had + more; ++slot) next_[slot] = static_cast<std::uint32_t>(slot + 1);
+  next_.back() = free_;
+  free_ = static_cast<std::uint32_t>(had);
 }
 
 std::size_t EventQueue::next_occupied(std::size_t from) const {
@@ -106,90 +150,122 @@ std::size_t EventQueue::next_occupied(std::size_t from) const {
   return word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
 }
 
-/// Moves the events of the next bucket that has any into the empty near part.
-void EventQueue::advance() {
-  TAKT_CHECK(near_.empty() && waiting_ > 0, "the calendar advances only when the near part is empty");
-  if (waiting_ < near_only_limit / 4) {
+/// Few events are left in the near array: fetches more, of the rest or of the next bucket. False: there is no event at all.
+bool EventQueue::top_up() {
+  low_water_ = NearEvents::few;
+  if (near_.has_rest()) {
+    near_.refill();
+    return true;
+  }
+  const bool is_empty = near_.sorted_count() == 0;
+  if (waiting() == 0) {
+    low_water_ = 1;
+    return !is_empty;
+  }
+  if (waiting() < near_only_limit / 4) {
     collapse();
+    return true;
+  }
+  // What is far ahead waits until nothing else is left: what the present events cause may come before it.
+  const std::size_t ahead = in_buckets_ == 0 ? buckets_.size() : buckets_to_next();
+  if (!is_empty && ahead > close_by)
+    low_water_ = 1;
+  else
+    advance(ahead);
+  return true;
+}
+
+/// Moves the events of the bucket so many buckets ahead, the next one that has any, into the near part, where there is no rest.
+void EventQueue::advance(std::size_t ahead) {
+  if (waiting() > 4 * size_when_spread_) {
+    spread(widest_log2);
     return;
   }
-  if (waiting_ > 4 * size_when_spread_) {
-    spread();
-    if (!near_.empty()) return;
-  }
-  if (in_buckets_ == 0) {
-    // Everything lies beyond the horizon: go straight to the bucket of the first such event.
-    const std::int64_t start = beyond_.first_time().ps() >> width_log2_ << width_log2_;
-    near_end_ = TrueTime::from_ps(start);
-  } else {
-    const std::size_t here = bucket_of(near_end_);
-    const std::size_t ahead = (next_occupied(here) - here) & (buckets_.size() - 1);
+  if (in_buckets_ == 0)   // everything lies beyond the horizon: go straight to the bucket of the first such event
+    near_end_ = TrueTime::from_ps(beyond_.first_time().ps() >> width_log2_ << width_log2_);
+  else
     near_end_ = buckets_after(near_end_, ahead);
-  }
-  const std::size_t bucket = bucket_of(near_end_);
-  near_end_ = buckets_after(near_end_, 1);
-  horizon_ = buckets_after(near_end_, buckets_.size() - 1);
-  scratch_.clear();
-  empty_bucket(bucket, scratch_);
-  while (!beyond_.empty() && beyond_.first_time() < horizon_) {
-    const Event event = beyond_.pop();
-    if (event.time < near_end_) {
-      scratch_.push_back(event);
-      --waiting_;
-    } else {
-      put_into_bucket(event);
-    }
-  }
-  TAKT_CHECK(!scratch_.empty(), "an occupied bucket holds an event");
-  near_.load(scratch_);
+  const TrueTime start = near_end_;
+  const std::size_t bucket = bucket_of(start);
+  near_end_ = buckets_after(start, 1);
+  horizon_ = buckets_after(start, buckets_.size());
+  while (!beyond_.empty() && beyond_.first_time() < horizon_) push_far(beyond_.pop());
+  load_bucket(bucket, start);
 }
 
-void EventQueue::empty_bucket(std::size_t bucket, std::vector<Event>& into) {
+void EventQueue::load_bucket(std::size_t bucket, TrueTime start) {
+  std::array<const Event*, most_few_events> few;
+  std::size_t count = 0;
   std::uint32_t slot = buckets_[bucket];
+  TAKT_CHECK(slot != none, "an occupied bucket holds an event");
+  std::uint32_t last = slot;
+  for (; slot != none && count < few.size(); slot = next_[slot]) {
+    few[count++] = &pool_[slot].event;
+    last = slot;
+  }
+  if (slot == none) [[likely]] {
+    near_.load_few({few.data(), count}, start, width_log2_);
+  } else {
+    scratch_.clear();
+    for (slot = buckets_[bucket]; slot != none; slot = next_[slot]) {
+      scratch_.push_back(pool_[slot].event);
+      last = slot;
+    }
+    count = scratch_.size();
+    near_.load(scratch_, sorter_);
+  }
+  next_[last] = free_;   // all its slots at once
+  free_ = buckets_[bucket];
   buckets_[bucket] = none;
   occupied_[bucket / 64] &= ~(1ULL << (bucket % 64));
-  while (slot != none) {
-    Waiting& waiting = pool_[slot];
-    const std::uint32_t next = waiting.next;
-    if (next != none) __builtin_prefetch(&pool_[next]);  // while this one is copied
-    into.push_back(waiting.event);
-    waiting.next = free_;
-    free_ = slot;
-    slot = next;
-    --waiting_;
-    --in_buckets_;
-  }
+  in_buckets_ -= count;
+  ++loads_;
 }
 
-/// Lays the events out anew with buckets so narrow that the near part stays small. Called when it is crowded.
-void EventQueue::spread() {
+void EventQueue::tune(std::uint64_t popped) {
+  popped_ += popped;
+  if (popped_ < observed) return;
+  const std::uint64_t mean = popped_ / std::max<std::uint64_t>(loads_, 1);
+  const bool is_crowded = loads_ > 0 && mean > most_in_bucket && width_log2_ > narrowest_log2;
+  popped_ = loads_ = 0;
+  if (is_crowded) spread(width_log2_ - static_cast<int>(std::bit_width(mean / wanted_in_bucket - 1)));
+}
+
+/// Lays the events out anew with buckets so narrow that the near part stays small, at any rate not wider than `widest`. Called when it is crowded.
+void EventQueue::spread(int widest) {
   std::vector<Event>& all = scratch_;
   all.clear();
   const auto keep = [&all](const Event& event) { all.push_back(event); };
   near_.drain(keep);
   beyond_.drain(keep);
   for (const std::uint32_t head : buckets_)
-    for (std::uint32_t slot = head; slot != none; slot = pool_[slot].next) keep(pool_[slot].event);
+    for (std::uint32_t slot = head; slot != none; slot = next_[slot]) keep(pool_[slot].event);
   size_when_spread_ = all.size();
-  const std::size_t bucket_count = std::clamp<std::size_t>(std::bit_ceil(2 * all.size()), 1024, std::size_t{1} << 20);
-  buckets_.assign(bucket_count, none);
-  occupied_.assign(bucket_count / 64, 0);
   pool_.clear();
+  next_.clear();
   free_ = none;
-  waiting_ = in_buckets_ = 0;
+  in_buckets_ = 0;
 
   // The nearest events say how densely they lie: far time-outs, and what comes a cycle later, must not widen the buckets.
   std::sort(all.begin(), all.end());
   const std::size_t near = all.size() / 8;
   const std::int64_t start = all.front().time.ps();
   const std::int64_t spacing = (all[near].time.ps() - start) / static_cast<std::int64_t>(near + 1);
-  width_log2_ = std::clamp(static_cast<int>(std::bit_width(static_cast<std::uint64_t>(2 * spacing))), narrowest_log2, widest_log2);
+  const int width = std::clamp(std::min(widest, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(2 * spacing)))), narrowest_log2, widest_log2);
+  // Narrower buckets reach as far as those before did.
+  const std::size_t as_far = widest == widest_log2 ? 0 : buckets_.size() << (width_log2_ - width);
+  const std::size_t bucket_count = std::clamp<std::size_t>(std::max(std::bit_ceil(2 * all.size()), as_far), 1024, std::size_t{1} << (as_far > 0 ? 17 : 20));
+  width_log2_ = width;
+  buckets_.assign(bucket_count, none);
+  occupied_.assign(bucket_count / 64, 0);
+  popped_ = loads_ = 0;
   near_end_ = buckets_after(TrueTime::from_ps(start >> width_log2_ << width_log2_), 1);
   horizon_ = buckets_after(near_end_, buckets_.size() - 1);
   const auto far = std::find_if(all.begin(), all.end(), [this](const Event& event) { return event.time >= near_end_; });
   std::for_each(far, all.end(), [this](const Event& event) { push_far(event); });
   all.erase(far, all.end());
-  near_.load(all);
+  near_.load(all, sorter_);
+  low_water_ = NearEvents::few;
   // Many events at one instant cannot be spread; do not try again before they have doubled.
   crowded_ = std::max<std::size_t>(near_only_limit, 2 * near_.size());
 }
@@ -198,11 +274,21 @@ void EventQueue::spread() {
 void EventQueue::collapse() {
   near_end_ = horizon_ = TrueTime::never();
   scratch_.clear();
-  for (std::size_t bucket = 0; bucket < buckets_.size() && in_buckets_ > 0; ++bucket)
-    if (buckets_[bucket] != none) empty_bucket(bucket, scratch_);
+  for (std::uint32_t& head : buckets_) {
+    if (in_buckets_ == 0) break;
+    for (std::uint32_t slot = head; slot != none; slot = next_[slot]) {
+      scratch_.push_back(pool_[slot].event);
+      --in_buckets_;
+    }
+    head = none;
+  }
+  buckets_.clear();
+  occupied_.clear();
+  pool_.clear();
+  next_.clear();
+  free_ = none;
   beyond_.drain([this](const Event& event) { scratch_.push_back(event); });
-  near_.load(scratch_);
-  waiting_ = 0;
+  near_.load(scratch_, sorter_);
   crowded_ = near_only_limit;
 }
 

@@ -8,11 +8,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sim/check.hpp"
 #include "sim/event.hpp"
+#include "sim/event_sort.hpp"
 
 namespace takt::sim {
 
@@ -109,14 +112,13 @@ class EventHeap {
 class NearEvents {
  public:
   static constexpr std::uint32_t most_sorted = 64;
+  /// While fewer than so many are in the array, more are fetched if there are any close by: who looks ahead sees them.
+  static constexpr std::uint32_t few = 8;
 
   bool empty() const { return count_ == 0 && !has_rest(); }
+  bool has_rest() const { return !batch_.empty() || !heap_.empty(); }
+  std::uint32_t sorted_count() const { return count_; }
   std::size_t size() const { return count_ + batch_.size() + heap_.size(); }
-  /// Precondition: not empty.
-  TrueTime first_time() {
-    if (count_ == 0) [[unlikely]] refill();
-    return sorted_[count_ - 1].time;
-  }
 
   /// The event that will be popped after `ahead` others, if that is known without work.
   const Event* upcoming(std::uint32_t ahead) const { return ahead < count_ ? &sorted_[count_ - 1 - ahead] : nullptr; }
@@ -129,10 +131,9 @@ class NearEvents {
     return &sorted_[count_ - 1];
   }
 
-  [[gnu::always_inline]] Event pop() {
-    if (count_ == 0) [[unlikely]] refill();
-    return sorted_[--count_];
-  }
+  // Precondition of both: sorted_count() is not 0.
+  TrueTime first_time() const { return sorted_[count_ - 1].time; }
+  [[gnu::always_inline]] Event pop() { return sorted_[--count_]; }
 
   /// Sorts the event in, where it comes before the rest and the array has room for it; otherwise it does nothing and returns false.
   [[gnu::always_inline]] bool push_if_short(const Event& event) {
@@ -145,8 +146,13 @@ class NearEvents {
     if (!push_if_short(event)) [[unlikely]] push_long(event);
   }
 
-  /// Takes over events in any order. Precondition: empty. `events` is empty afterwards.
-  void load(std::vector<Event>& events);
+  /// Moves events of the rest, if there are any, into the array. Precondition: sorted_count() is less than `few`.
+  void refill();
+  /// Takes over events in any order, none of which comes before those in the array. Preconditions: there is no rest, and sorted_count() is less than `few`. `events` is
+  /// empty afterwards.
+  void load(std::vector<Event>& events, EventSorter& sorter);
+  /// The same for at most most_few_events of a span of time (sort_few()).
+  void load_few(std::span<const Event* const> events, TrueTime start, int span_log2);
 
   template <class Sink>
   void drain(Sink&& sink) {
@@ -159,8 +165,8 @@ class NearEvents {
 
  private:
   static constexpr std::uint32_t refilled = 48;   // leaves room for what is pushed meanwhile
+  static_assert(most_few_events + few <= most_sorted);
 
-  bool has_rest() const { return !batch_.empty() || !heap_.empty(); }
   [[gnu::always_inline]] void insert(const Event& event) {
     Event* const first = sorted_.data();
     Event* at = first + count_++;
@@ -171,7 +177,9 @@ class NearEvents {
     *at = event;
   }
   void push_long(const Event& event);
-  void refill();
+  void refill_one_by_one();
+  /// Makes room for so many later events at the front of the array.
+  void move_up(std::uint32_t places);
   /// The first event of the rest. Precondition: has_rest().
   Event take_of_rest();
   void find_rest_time();
@@ -185,14 +193,13 @@ class NearEvents {
 
 class EventQueue {
  public:
-  bool empty() const { return near_.empty() && waiting_ == 0; }
-  std::size_t size() const { return near_.size() + waiting_; }
+  bool empty() const { return near_.empty() && waiting() == 0; }
+  std::size_t size() const { return near_.size() + waiting(); }
 
-  /// The time of the first event, or never. It may move events from the calendar to the heap.
+  /// The time of the first event, or never. It may move events from the calendar to the near part.
   TrueTime first_time() {
-    if (near_.empty()) [[unlikely]] {
-      if (waiting_ == 0) return TrueTime::never();
-      advance();
+    if (near_.sorted_count() < low_water_) [[unlikely]] {
+      if (!top_up()) return TrueTime::never();
     }
     return near_.first_time();
   }
@@ -200,7 +207,7 @@ class EventQueue {
   /// Whether no event is due by then. Unlike first_time() it stays where it is: whoever asks may still push what comes before all that waits.
   bool has_none_until(TrueTime now) {
     if (const Event* const event = near_.first()) [[likely]] return event->time > now;
-    return waiting_ == 0 || now < near_end_ || first_time() > now;
+    return waiting() == 0 || now < near_end_ || first_time() > now;
   }
 
   /// Removes and returns the first event. Precondition: first_time() has just been asked and was not never.
@@ -220,31 +227,49 @@ class EventQueue {
     push_elsewhere(event.time, event.order, event.serial_kind, event.argument);
   }
 
+  /// So many events were popped since it was called last: buckets that hold too much are made narrower. When they were laid out, few components may have been at work.
+  void tune(std::uint64_t popped);
+
  private:
-  struct Waiting {
+  /// An event in the calendar: two share a cache line, none lies in two.
+  struct alignas(32) Waiting {
     Event event;
-    std::uint32_t next;
   };
   static constexpr std::uint32_t none = 0xFFFF'FFFF;
   static constexpr std::size_t near_only_limit = 64;
   /// Widths of buckets, as powers of two ps. What many components do at one instant says nothing of how densely events lie; 66 ns are less than a short frame takes, so that
-  /// a bucket gets hardly anything while it is worked on; 32,768 of them reach 2 ms.
+  /// a bucket gets hardly anything while it is worked on.
   static constexpr int narrowest_log2 = 16;
   static constexpr int widest_log2 = 40;
+  /// How many events should come and go while a bucket is worked on, and from how many on, of so many events, the calendar is laid out anew with narrower ones.
+  static constexpr std::uint64_t wanted_in_bucket = 12;
+  static constexpr std::uint64_t most_in_bucket = 28;
+  static constexpr std::uint64_t observed = 20'000;
+  /// So many buckets ahead the next events are fetched while some of the present ones are left.
+  static constexpr std::size_t close_by = 4;
   static_assert(near_only_limit >= NearEvents::most_sorted, "a near part that is a sorted array is never crowded");
 
   /// The way of what does not fit into the sorted array. It takes words, since a reference would keep every event in memory.
   void push_elsewhere(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
+  [[gnu::noinline]] void push_seldom(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
   void push_far(const Event& event);
-  void put_into_bucket(const Event& event);
-  void advance();
-  void empty_bucket(std::size_t bucket, std::vector<Event>& into);
-  void spread();
+  void put_into_bucket(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
+  void make_slots();
+  [[gnu::noinline]] bool top_up();
+  void advance(std::size_t ahead);
+  void load_bucket(std::size_t bucket, TrueTime start);
+  void spread(int widest);
   void collapse();
+  std::size_t waiting() const { return in_buckets_ + beyond_.size(); }
   std::size_t bucket_of(TrueTime time) const {
     return static_cast<std::size_t>(time.ps() >> width_log2_) & (buckets_.size() - 1);
   }
   std::size_t next_occupied(std::size_t from) const;
+  /// How many buckets after the one that begins at near_end_ the next events lie. Precondition: in_buckets_ is not 0.
+  std::size_t buckets_to_next() const {
+    const std::size_t here = bucket_of(near_end_);
+    return (next_occupied(here) - here) & (buckets_.size() - 1);
+  }
   /// The start of the bucket that lies so many buckets after `start`; never() beyond the end of time.
   TrueTime buckets_after(TrueTime start, std::size_t buckets) const {
     const int128 ps = start.ps() + (static_cast<int128>(buckets) << width_log2_);
@@ -254,16 +279,20 @@ class EventQueue {
   NearEvents near_;
   TrueTime near_end_ = TrueTime::never();   // events before it are in near_
   TrueTime horizon_ = TrueTime::never();    // events from it on are in beyond_
-  std::size_t crowded_ = near_only_limit;   // size of near_ at which the calendar is (re)built
-  std::size_t waiting_ = 0;                 // events in buckets and in beyond_
-  std::size_t in_buckets_ = 0;
+  std::uint32_t low_water_ = 1;             // fewer sorted events in near_ are a reason to look for more
+  std::uint32_t free_ = none;
   int width_log2_ = 0;                      // a bucket spans 2^width_log2_ ps
+  std::size_t crowded_ = near_only_limit;   // size of near_ at which the calendar is (re)built
+  std::size_t in_buckets_ = 0;
   std::size_t size_when_spread_ = 0;
+  std::uint64_t popped_ = 0;                // since it was tuned last
+  std::uint64_t loads_ = 0;                 // buckets that were loaded since then
   std::vector<std::uint32_t> buckets_;      // head of each bucket's list; a power of two of them
   std::vector<std::uint64_t> occupied_;     // one bit a bucket
   std::vector<Waiting> pool_;
-  std::uint32_t free_ = none;
+  std::vector<std::uint32_t> next_;         // of each slot of the pool: the next one of its bucket, or of those that are free
   EventHeap beyond_;
+  EventSorter sorter_;
   std::vector<Event> scratch_;  // of spread() and advance(), kept so that it allocates once
 };
 

@@ -85,6 +85,8 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
       if (events_ >= pause_at) [[unlikely]] {
         if (events_ >= stop_at && next > now_) return false;
         pending_peak_ = std::max(pending_peak_, queue_.size());
+        queue_.tune(events_ - tuned_at_);
+        tuned_at_ = events_;
         pause_at = std::min(stop_at, (events_ | 0x3FF) + 1);
       }
       event = queue_.pop();

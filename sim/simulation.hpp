@@ -139,6 +139,7 @@ class Simulation {
   std::ptrdiff_t settling_first_ = 0;  // so many at the front of settling_ asked by settle_first()
   EventQueue queue_;
   std::uint64_t events_ = 0;
+  std::uint64_t tuned_at_ = 0;         // events_ when the queue was told last
   std::size_t pending_peak_ = 0;
   Digest digest_;
   TraceSink* trace_ = nullptr;

@@ -37,6 +37,7 @@ class Pair {
     if (queue_.first_time() != expected.time) return false;
     const Event event = queue_.pop();
     now_ = event.time.ps();
+    if (++popped_ % 512 == 0) queue_.tune(512);   // as a simulation does
     return event.time == expected.time && event.order == expected.order && event.serial_kind == expected.serial_kind &&
            event.argument == expected.argument;
   }
@@ -51,6 +52,7 @@ class Pair {
   std::multiset<Event> oracle_;
   std::uint64_t serial_ = 0;
   std::int64_t now_ = 0;
+  std::uint64_t popped_ = 0;
 };
 
 /// How far ahead events are scheduled.
@@ -104,6 +106,21 @@ INSTANTIATE_TEST_SUITE_P(Loads, EventQueueLoad,
                                          Load{"mixed_large", mixed, 20'000}, Load{"logarithmic_small", logarithmic, 100},
                                          Load{"logarithmic_large", logarithmic, 3'000}),
                          [](const auto& param_info) { return std::string(param_info.param.name); });
+
+// First few components at work, then many, closer and closer to one another: buckets that were right at first hold hundreds, until they are laid out anew.
+TEST(EventQueue, BecomesDense) {
+  RandomStream chance(3, "dense", "event queue");
+  Pair pair;
+  for (std::size_t i = 0; i < 100; ++i) pair.push_after(chance.below(1'000'000'000'000));
+  for (const std::uint64_t span : {1'000'000'000, 10'000'000, 2'000'000, 100'000}) {
+    while (pair.size() < 2'000) pair.push_after(chance.below(span));
+    for (int i = 0; i < 60'000; ++i) {
+      ASSERT_TRUE(pair.pop()) << "operation " << i << " of those within " << span << " ps";
+      pair.push_after(chance.below(span));
+    }
+  }
+  EXPECT_TRUE(pair.drain_to(0));
+}
 
 // From an empty queue to a calendar and back to few events, many times, each time at another scale of time.
 TEST(EventQueue, CollapsesAndSpreadsBackAndForth) {

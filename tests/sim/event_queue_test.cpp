@@ -112,7 +112,7 @@ TEST(EventQueue, BecomesDense) {
   RandomStream chance(3, "dense", "event queue");
   Pair pair;
   for (std::size_t i = 0; i < 100; ++i) pair.push_after(chance.below(1'000'000'000'000));
-  for (const std::uint64_t span : {1'000'000'000, 10'000'000, 2'000'000, 100'000}) {
+  for (const std::uint64_t span : {1'000'000'000u, 10'000'000u, 2'000'000u, 100'000u}) {
     while (pair.size() < 2'000) pair.push_after(chance.below(span));
     for (int i = 0; i < 60'000; ++i) {
       ASSERT_TRUE(pair.pop()) << "operation " << i << " of those within " << span << " ps";

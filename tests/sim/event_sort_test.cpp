@@ -59,7 +59,7 @@ TEST(EventSort, OfManyIsTheSortedVector) {
   RandomStream chance(2, "many", "event sort");
   EventSorter sorter;
   for (const Likeness& likeness : likenesses)
-    for (const std::size_t count : {0, 1, 2, 3, 49, 255, 256, 1'000, 5'000}) {
+    for (const std::size_t count : {0u, 1u, 2u, 3u, 49u, 255u, 256u, 1'000u, 5'000u}) {
       std::vector<Event> events;
       for (std::size_t i = 0; i < count; ++i) events.push_back(any_event(likeness, i, chance));
       std::vector<Event> sorted = events;

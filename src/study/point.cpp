@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <ctime>
 
 #include "results/result_json.hpp"
 #include "evaluation/evaluate.hpp"
@@ -12,17 +11,12 @@
 #include "scenario/run/divided_run.hpp"
 #include "scenario/run/run.hpp"
 #include "scenario/topology/graph_figures.hpp"
+#include "study/cpu_time.hpp"
 
 namespace takt::study {
 namespace {
 
 constexpr std::array<std::string_view, 5> status_names = {"done", "impossible", "too-long", "too-large", "failed"};
-
-std::uint64_t cpu_us_now() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000 + static_cast<std::uint64_t>(now.tv_nsec) / 1000;
-}
 
 bool asks_for_topology(const Plan& plan) {
   return std::any_of(plan.measures.begin(), plan.measures.end(), [](const PlannedMeasure& m) { return m.steps.front() == "topology"; });
@@ -134,9 +128,9 @@ Outcome run_variant(const Plan& plan, const Variant& variant, std::uint64_t seed
 }
 
 Outcome run_point(const Plan& plan, std::uint64_t point, unsigned threads) {
-  const std::uint64_t began = cpu_us_now();
+  const std::uint64_t began = cpu_time_us();
   Outcome outcome = run_variant(plan, plan.variants[plan.variant_of(point)], plan.seed_of(point), threads);
-  outcome.cpu_us = cpu_us_now() - began;
+  outcome.cpu_us = cpu_time_us() - began;
   return outcome;
 }
 

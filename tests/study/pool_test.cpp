@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <ctime>
 #include <map>
 #include <stdexcept>
+
+#include "study/cpu_time.hpp"
 
 namespace takt::study {
 namespace {
@@ -58,6 +61,27 @@ TEST(Pool, TooMuchTimeIsAnAnswer) {
   EXPECT_EQ(answers[1].kind, Answer::Kind::too_long);
   EXPECT_NE(answers[1].text.find("0.05 s"), std::string::npos) << answers[1].text;
   EXPECT_EQ(answers[2].text, "fine");
+}
+
+// Linux brings the clock of a process up to date with its ticks only while a limit of its CPU time is set; a point is told its time to the microsecond.
+TEST(Pool, TheTimeOfAShortJobIsSeenThoughItIsLimited) {
+  Pool pool(1, roomy, [](std::uint64_t) {
+    const auto thread_us = [] {
+      timespec now{};
+      ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+      return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000 + static_cast<std::uint64_t>(now.tv_nsec) / 1000;
+    };
+    // Asking for the time of the thread brings that of the process up to date as well, so it is asked outside.
+    for (std::uint64_t steps = 10'000;; steps *= 2) {
+      const std::uint64_t thread_began = thread_us();
+      const std::uint64_t began = cpu_time_us();
+      for (std::uint64_t left = steps; left > 0; --left) asm volatile("");   // the optimiser leaves it
+      const std::uint64_t took = cpu_time_us() - began;
+      const std::uint64_t thread_took = thread_us() - thread_began;
+      if (thread_took >= 500) return std::string(2 * took >= thread_took ? "seen" : "only " + std::to_string(took) + " us of " + std::to_string(thread_took));
+    }
+  });
+  for (const auto& [job, answer] : run(pool, 20)) EXPECT_EQ(answer.text, "seen") << job;
 }
 
 #if !defined(__SANITIZE_ADDRESS__)

@@ -30,11 +30,18 @@ PeriodicFixedLayout::PeriodicFixedLayout(const Settings& settings) {
   for (std::size_t i = 0; i < settings.data_sets.size(); ++i) {
     DataSet& data_set = data_sets_.emplace_back();
     data_set.begin = encoder.position();
-    for (std::size_t f = 0; f < settings.data_sets[i].count(); ++f) data_set.field_offsets.push_back(data_set.begin + header_octets + settings.data_sets[i].offset(f));
+    const RawLayout& fields = settings.data_sets[i];
+    for (std::size_t f = 0; f < fields.count(); ++f) data_set.field_offsets.push_back(data_set.begin + header_octets + fields.offset(f));
+    data_set.runs.resize(fields.count());
+    for (std::size_t f = fields.count(); f-- > 0;) {
+      const RawField& field = fields.field(f);
+      const bool goes_on = f + 1 < fields.count() && fields.field(f + 1).type == field.type && !fields.field(f + 1).is_array;
+      data_set.runs[f] = {field.type, field.is_array ? 0 : goes_on ? data_set.runs[f + 1].count + 1 : 1};
+    }
     encoder.begin(header_with(0, 0));
-    encoder.body(Octets(zeros).first(std::min(settings.data_sets[i].size(), most_octets)));
+    encoder.body(Octets(zeros).first(std::min(fields.size(), most_octets)));
     const std::size_t configured = i < settings.configured_sizes.size() ? settings.configured_sizes[i] : 0;
-    TAKT_CHECK(configured == 0 || configured >= header_octets + settings.data_sets[i].size(), "the fields fit ConfiguredSize");
+    TAKT_CHECK(configured == 0 || configured >= header_octets + fields.size(), "the fields fit ConfiguredSize");
     encoder.end(configured);
   }
   const std::size_t size = encoder.finish().size();

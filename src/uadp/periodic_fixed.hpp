@@ -10,6 +10,7 @@
 #include "sim/check.hpp"
 #include "uadp/publisher_id.hpp"
 #include "uadp/raw_layout.hpp"
+#include "uadp/value.hpp"
 
 namespace takt::uadp {
 
@@ -36,6 +37,13 @@ class PeriodicFixedLayout {
   /// Of all fields of a DataSetMessage: what a loop over them should ask once.
   std::span<const std::size_t> field_offsets(std::size_t data_set) const { return data_sets_[data_set].field_offsets; }
 
+  /// Fields of one type that stand one after another, from `field` on: stored and loaded as one, with one look at the layout. They must be scalars of the
+  /// type of T. `target` and `octets` must have size() octets.
+  template <FixedScalar T, std::size_t Count>
+  void store_values(std::span<std::byte> target, std::size_t data_set, std::size_t field, std::span<const T, Count> values) const;
+  template <FixedScalar T, std::size_t Count>
+  void load_values(Octets octets, std::size_t data_set, std::size_t field, std::span<T, Count> values) const;
+
   /// Puts the constant octets and the sequence number of the group; the fields are zeros. `target` must have size() octets.
   void start(std::span<std::byte> target, std::uint16_t sequence_number) const;
   /// Puts the header of a DataSetMessage; `status` is the upper half of a StatusCode.
@@ -59,10 +67,20 @@ class PeriodicFixedLayout {
   static constexpr std::size_t header_octets = 5;
 
  private:
+  /// Scalars of one type that follow one another.
+  struct Run {
+    BuiltInType type{};
+    std::size_t count = 0;   ///< 0 where there is no scalar
+  };
   struct DataSet {
     std::size_t begin = 0;
     std::vector<std::size_t> field_offsets;
+    std::vector<Run> runs;   ///< that begin at a field
   };
+  /// Where such fields are, of which there must be `count`.
+  template <FixedScalar T>
+  std::size_t offset_of_run(std::size_t data_set, std::size_t field, std::size_t count) const;
+
   std::vector<std::byte> prototype_;
   std::size_t sequence_at_ = 0;  ///< the last two octets of the header
   std::vector<DataSet> data_sets_;
@@ -92,6 +110,35 @@ inline bool PeriodicFixedLayout::matches(Octets octets) const {
   for (const DataSet& each : data_sets_)
     if (octets[each.begin] != prototype_[each.begin]) return false;
   return true;
+}
+
+template <FixedScalar T>
+std::size_t PeriodicFixedLayout::offset_of_run(std::size_t data_set, std::size_t field, std::size_t count) const {
+  const DataSet& of = data_sets_[data_set];
+  TAKT_CHECK(field < of.runs.size() && of.runs[field].type == BuiltIn<T>::type && of.runs[field].count >= count, "so many fields of the type follow one another");
+  return of.field_offsets[field];
+}
+
+template <FixedScalar T, std::size_t Count>
+void PeriodicFixedLayout::store_values(std::span<std::byte> target, std::size_t data_set, std::size_t field, std::span<const T, Count> values) const {
+  std::byte* const at = target.data() + offset_of_run<T>(data_set, field, values.size());
+  TAKT_CHECK(target.size() >= prototype_.size(), "the target has room for the layout");
+  if constexpr (is_encoded_as_it_is<T>) {
+    std::memcpy(at, values.data(), values.size_bytes());
+  } else {
+    for (std::size_t i = 0; i < values.size(); ++i) store_value(at + i * fixed_octets(BuiltIn<T>::type), values[i]);
+  }
+}
+
+template <FixedScalar T, std::size_t Count>
+void PeriodicFixedLayout::load_values(Octets octets, std::size_t data_set, std::size_t field, std::span<T, Count> values) const {
+  const std::byte* const at = octets.data() + offset_of_run<T>(data_set, field, values.size());
+  TAKT_CHECK(octets.size() >= prototype_.size(), "the octets are a message of the layout");
+  if constexpr (is_encoded_as_it_is<T>) {
+    std::memcpy(values.data(), at, values.size_bytes());
+  } else {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = load_value<T>(at + i * fixed_octets(BuiltIn<T>::type));
+  }
 }
 
 }  // namespace takt::uadp

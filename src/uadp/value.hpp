@@ -2,6 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <concepts>
+#include <type_traits>
 
 #include "uadp/builtin_type.hpp"
 #include "uadp/octets.hpp"
@@ -40,6 +43,10 @@ void store_value(std::byte* at, const T& value) {
     store_little_endian(at, value);
   }
 }
+
+/// Its values have in memory the octets of their encoding: several may be copied as one.
+template <FixedScalar T>
+inline constexpr bool is_encoded_as_it_is = std::is_arithmetic_v<T> && !std::same_as<T, bool> && std::endian::native == std::endian::little;
 
 /// Int32 length and the octets; the longest is 2^31 - 1.
 inline void put_length_and_octets(Writer& writer, Octets octets) {

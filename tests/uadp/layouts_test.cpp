@@ -75,6 +75,69 @@ TEST(PeriodicFixed, OnlyItsOwnMessagesMatch) {
   EXPECT_TRUE(layout.matches(padded));
 }
 
+/// `values` are between two Bytes of other fields, once stored as one and once one by one.
+template <class T, std::size_t Count>
+void expect_the_same_as_one_by_one(const std::array<T, Count>& values) {
+  SCOPED_TRACE(name_of(BuiltIn<T>::type));
+  std::vector<RawField> fields = {{BuiltInType::Byte}};
+  fields.insert(fields.end(), Count, {BuiltIn<T>::type});
+  fields.push_back({BuiltInType::XmlElement, false, 0, 3});
+  const PeriodicFixedLayout layout({PublisherId::uint16(100), 1, 0x2F0E1A00, 1, {RawLayout(fields)}});
+  std::vector<std::byte> singly(layout.size());
+  layout.start(singly, 16);
+  std::vector<std::byte> together = singly;
+  for (std::size_t i = 0; i < Count; ++i) store_value(singly.data() + layout.field_offset(0, 1 + i), values[i]);
+  layout.store_values(together, 0, 1, std::span(values));
+  EXPECT_EQ(hex_of(together), hex_of(singly));
+  std::array<T, Count> loaded{};
+  layout.load_values(together, 0, 1, std::span(loaded));
+  EXPECT_EQ(loaded, values);
+  // Not the first ones, and as many as are known only when the program runs.
+  std::vector<T> last(Count - 1);
+  layout.load_values(together, 0, 2, std::span(last.begin(), last.end()));
+  EXPECT_TRUE(std::equal(last.begin(), last.end(), values.begin() + 1));
+}
+
+TEST(PeriodicFixed, FieldsOfOneTypeAreStoredAndLoadedAsOne) {
+  expect_the_same_as_one_by_one(std::array<double, 4>{1.5, -0.0, 1e300, 4.0});
+  expect_the_same_as_one_by_one(std::array<float, 3>{1.5F, -2.25F, 4.0F});
+  expect_the_same_as_one_by_one(std::array<std::int16_t, 3>{-2, 3, 0x1234});
+  expect_the_same_as_one_by_one(std::array<std::uint8_t, 3>{1, 2, 255});
+  expect_the_same_as_one_by_one(std::array{DateTime{133500000000000000}, DateTime{-7}});
+  expect_the_same_as_one_by_one(std::array{Status{0x80010000}, Status{3}});
+  expect_the_same_as_one_by_one(std::array{Guid{{std::byte{1}, std::byte{2}}}, Guid{{std::byte{3}}}});
+}
+
+// Bool is not copied: any octet but 0 is true.
+TEST(PeriodicFixed, BooleansAreStoredAndLoadedAsOne) {
+  const PeriodicFixedLayout layout({PublisherId::uint16(100), 1, 0, 1, {RawLayout({{BuiltInType::Boolean}, {BuiltInType::Boolean}, {BuiltInType::Boolean}})}});
+  std::vector<std::byte> octets(layout.size());
+  const std::array values{true, false, true};
+  layout.store_values(octets, 0, 0, std::span(values));
+  EXPECT_EQ(hex_of(std::span(octets).last(3)), "010001");
+  octets.back() = std::byte{2};
+  std::array<bool, 3> loaded{};
+  layout.load_values(octets, 0, 0, std::span(loaded));
+  EXPECT_EQ(loaded, values);
+}
+
+TEST(PeriodicFixed, OtherFieldsAreNotTakenForARun) {
+  const RawLayout fields({{BuiltInType::Int32}, {BuiltInType::Double}, {BuiltInType::Double}, {BuiltInType::Double, true, 1}, {BuiltInType::Double}});
+  const PeriodicFixedLayout layout({PublisherId::uint16(100), 1, 0, 1, {fields}});
+  std::vector<std::byte> octets(layout.size());
+  std::vector<double> values(2);
+  const std::array<std::int64_t, 2> integers{};
+  EXPECT_NO_THROW(layout.load_values(octets, 0, 1, std::span(values)));
+  EXPECT_THROW(layout.load_values(octets, 0, 0, std::span(values)), sim::InvariantBroken);                                 // an Int32
+  EXPECT_THROW(layout.load_values(octets, 0, 2, std::span(values)), sim::InvariantBroken);                                 // the second is an array
+  EXPECT_THROW(layout.load_values(octets, 0, 3, std::span(values).first(1)), sim::InvariantBroken);                        // an array
+  EXPECT_THROW(layout.load_values(octets, 0, 4, std::span(values)), sim::InvariantBroken);                                 // behind the last
+  EXPECT_THROW(layout.load_values(octets, 0, 5, std::span(values).first(1)), sim::InvariantBroken);
+  EXPECT_THROW(layout.load_values(Octets(octets).first(octets.size() - 1), 0, 1, std::span(values)), sim::InvariantBroken);
+  EXPECT_THROW(layout.store_values(std::span(octets), 0, 1, std::span(integers)), sim::InvariantBroken);
+  EXPECT_THROW(layout.store_values(std::span(octets).first(20), 0, 1, std::span<const double>(values)), sim::InvariantBroken);
+}
+
 // An UInt64 PublisherId makes the header 21 octets; a ConfiguredSize of 32 moves the second DataSetMessage to 53.
 TEST(PeriodicFixed, ConfiguredSizesPad) {
   const RawLayout fields({{BuiltInType::Int32}});

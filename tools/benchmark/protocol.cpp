@@ -38,16 +38,14 @@ uadp::PeriodicFixedLayout layout() {
 [[gnu::noinline]] void encode(const uadp::PeriodicFixedLayout& layout, const Values& values, std::uint16_t number, std::span<std::byte> target) {
   layout.start(target, number);
   layout.set_header(target, 0, number);
-  const std::span<const std::size_t> at = layout.field_offsets(0);
-  uadp::store_value(target.data() + at[0], values.state);
-  for (std::size_t i = 0; i < doubles; ++i) uadp::store_value(target.data() + at[1 + i], values.axes[i]);
+  uadp::store_value(target.data() + layout.field_offset(0, 0), values.state);
+  layout.store_values(target, 0, 1, std::span(values.axes));
 }
 
 [[gnu::noinline]] bool decode(const uadp::PeriodicFixedLayout& layout, uadp::Octets octets, std::uint16_t number, Values& values) {
   if (!layout.matches(octets) || layout.sequence_number(octets, 0) != number) return false;
-  const std::span<const std::size_t> at = layout.field_offsets(0);
-  values.state = uadp::load_value<std::int32_t>(octets.data() + at[0]);
-  for (std::size_t i = 0; i < doubles; ++i) values.axes[i] = uadp::load_value<double>(octets.data() + at[1 + i]);
+  values.state = uadp::load_value<std::int32_t>(octets.data() + layout.field_offset(0, 0));
+  layout.load_values(octets, 0, 1, std::span(values.axes));
   return true;
 }
 

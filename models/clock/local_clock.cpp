@@ -50,6 +50,21 @@ sim::TrueTime LocalClock::true_in_segments(sim::LocalTime time) const {
   return std::min(previous_.true_at(time), present_.start);
 }
 
+EqualSteps LocalClock::steps_from(sim::LocalTime time, sim::Duration step) const {
+  TAKT_CHECK(step >= sim::Duration(), "times that come one after the other");
+  EqualSteps steps;
+  const sim::TrueTime first = present_.true_at(time);
+  if ((first <= present_.start && !ideal_) || first < sim::TrueTime() || first == sim::TrueTime::never()) return steps;
+  const sim::int128 rate = present_.rate.multiple();
+  const sim::int128 distance = sim::int128{step.ps()} << fraction_bits;
+  steps.time_ = static_cast<std::uint64_t>(first.ps());
+  steps.whole_ = static_cast<std::uint64_t>(std::min(distance / rate, largest));
+  steps.part_ = static_cast<std::uint64_t>(distance % rate);
+  steps.early_ = static_cast<std::uint64_t>((sim::int128{first.ps()} - present_.start.ps()) * rate - ((sim::int128{time.ps()} << fraction_bits) - present_.local));
+  steps.rate_ = present_.rate.multiple();
+  return steps;
+}
+
 sim::LocalTime LocalClock::unstepped_in_segments(sim::TrueTime time) const {
   const sim::LocalTime shown = local_at(time);
   if (shown == sim::LocalTime::never()) return shown;
@@ -95,6 +110,7 @@ void LocalClock::begin_segment(sim::TrueTime now, sim::Duration step) {
   TAKT_CHECK(next.local >> fraction_bits < largest && next.local >> fraction_bits > smallest, "local time within its range");
   if (now != present_.start) previous_ = present_;  // a second change at one instant belongs to the first
   present_ = next;
+  inverse_ = SegmentInverse(now, next.local, rate);
   for (ClockListener* const listener : listeners_) listener->clock_changed(*this, now);
 }
 

@@ -14,9 +14,12 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "models/clock/clock_rate.hpp"
+#include "models/clock/equal_steps.hpp"
+#include "models/clock/segment_inverse.hpp"
 #include "sim/time.hpp"
 
 namespace takt::models {
@@ -48,8 +51,13 @@ class LocalClock {
   }
   sim::TrueTime true_at(sim::LocalTime time) const {
     if (ideal_) [[likely]] return sim::TrueTime::from_ps(time.ps());
+    if (const std::optional<sim::TrueTime> in_present = inverse_.at(time)) [[likely]] return *in_present;
     return true_in_segments(time);
   }
+
+  /// true_at(time + step), true_at(time + 2 step) ... until the clock changes; not set where that does not follow from true_at(time): before the present
+  /// segment, and after the last instant. Precondition: step >= 0.
+  EqualSteps steps_from(sim::LocalTime time, sim::Duration step) const;
 
   /// When to ask again for what becomes true at `time`: after `now` in any case, also where the clock shows `time` already.
   sim::TrueTime true_after(sim::LocalTime time, sim::TrueTime now) const { return std::max(true_at(time), now + sim::Duration::from_ps(1)); }
@@ -99,6 +107,7 @@ class LocalClock {
   void begin_segment(sim::TrueTime now, sim::Duration step);
 
   bool ideal_ = true;
+  SegmentInverse inverse_;   // of the present segment
   Segment present_;
   Segment previous_;
   ClockRate hardware_rate_;

@@ -70,16 +70,22 @@ sim::LocalTime Talker::time_of_next() {
       schedule_);
 }
 
-inline void Talker::schedule_event(sim::Simulation& simulation) {
-  simulation.schedule(source_, std::max(clock_->true_at(last_), simulation.now()), phase_, source_.id(), produce_now, generation_);
+inline void Talker::schedule_at(sim::Simulation& simulation, sim::TrueTime due) {
+  simulation.schedule(source_, std::max(due, simulation.now()), phase_, source_.id(), produce_now, generation_);
+}
+
+sim::TrueTime Talker::ask_clock() {
+  if (fixed_step_ > sim::Duration()) steps_ = clock_->steps_from(last_, fixed_step_);
+  return clock_->true_at(last_);
 }
 
 inline void Talker::schedule_next(sim::Simulation& simulation) {
-  const sim::LocalTime time = count_ > 0 && fixed_step_ > sim::Duration() ? last_.plus_saturated(fixed_step_) : time_of_next();
+  const bool follows = steps_.is_set();
+  const sim::LocalTime time = follows || (count_ > 0 && fixed_step_ > sim::Duration()) ? last_.plus_saturated(fixed_step_) : time_of_next();
   is_over_ = time >= until_;
   if (is_over_) return;
   last_ = time;
-  schedule_event(simulation);
+  schedule_at(simulation, follows ? steps_.next() : ask_clock());
 }
 
 void Talker::start(sim::Simulation& simulation) {
@@ -106,7 +112,7 @@ void Talker::clock_changed(sim::Simulation& simulation) {
   ++generation_;
   // What a step has passed over wholly was never: two such would produce at one instant.
   is_over_ = clock_->local_at(simulation.now()) >= until_;
-  if (!is_over_) schedule_event(simulation);
+  if (!is_over_) schedule_at(simulation, ask_clock());
 }
 
 void Talker::prefetch(const sim::Event&, Ahead ahead) const {

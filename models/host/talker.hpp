@@ -56,7 +56,9 @@ class Talker final : public sim::Component, public CpuUser {
 
  private:
   void schedule_next(sim::Simulation& simulation);
-  void schedule_event(sim::Simulation& simulation);
+  void schedule_at(sim::Simulation& simulation, sim::TrueTime due);
+  /// Where the clock does not run as it did when the frame before was due, if there was one.
+  [[gnu::noinline]] sim::TrueTime ask_clock();
   void hand_over(sim::Simulation& simulation, FrameIndex frame);
   [[gnu::noinline]] void mark(Frame& frame) const;
   [[gnu::noinline]] void hand_over_with_care(sim::Simulation& simulation, FrameIndex frame);
@@ -72,6 +74,7 @@ class Talker final : public sim::Component, public CpuUser {
   std::uint64_t count_ = 0;
   sim::Phase phase_ = sim::Phase::timer;
   sim::LocalTime last_;
+  EqualSteps steps_;               // of the clock, from the frame that is next on; set while fixed_step_ is
   std::uint64_t generation_ = 0;   // of the event that produces the next frame
   bool is_over_ = false;           // there is no next frame
   sim::LocalTime until_ = sim::LocalTime::never();

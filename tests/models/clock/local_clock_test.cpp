@@ -150,5 +150,103 @@ TEST(LocalClockProperty, TrueAtIsMonotonousAndLiesInItsSegment) {
   }));
 }
 
+/// What true_at() is by definition: the first instant at which the clock shows `time`.
+bool is_first(const LocalClock& clock, TrueTime at, LocalTime time) { return clock.local_at(at) >= time && clock.local_at(at - 1_ps) < time; }
+
+// Most answers are those of SegmentInverse: next to the start of the segment and far behind it, at all rates.
+TEST(LocalClockProperty, TrueAtIsTheFirstInstantNearAndFar) {
+  ASSERT_TRUE(rc::check("near and far", [] {
+    LocalClock clock;
+    const TrueTime last = disturb(clock, false);
+    const auto distance = std::int64_t{1} << *rc::gen::inRange(0, 58);
+    const LocalTime time = clock.local_at(last) + 1_ps + Duration::from_ps(*rc::gen::inRange<std::int64_t>(1, distance + 1));
+    RC_ASSERT(is_first(clock, clock.true_at(time), time));
+  }));
+}
+
+// Segments that begin with a fraction of a picosecond, at rates that are whole, inexact, fast and slow: where the multiplication answers, it
+// is right; and it does answer nearly everywhere, at rates that are not as near to a simple ratio as these.
+TEST(SegmentInverse, IsExactOrSaysNothing) {
+  constexpr std::uint64_t one = std::uint64_t{RateOffset::one};
+  std::size_t silent = 0;
+  std::size_t asked = 0;
+  for (const std::uint64_t rate : {one / 2, one / 2 + 1, one - 1, one, one + 1, one + one / 20'000, one - one / 20'000, one + one / 3, 2 * one - 1, 2 * one}) {
+    for (const std::uint64_t fraction : {std::uint64_t{0}, std::uint64_t{1}, one / 3, one / 2, one - 2, one - 1}) {
+      const sim::int128 start_shows = (sim::int128{1'000'007} << RateOffset::fraction_bits) + static_cast<sim::int128>(fraction);
+      const SegmentInverse inverse(TrueTime::from_ps(77), start_shows, ClockRate::from_multiple(rate));
+      std::vector<std::int64_t> distances = {1, 2, 3, 20'000'000, 1'000'000'000'000, (std::int64_t{1} << 56) - 1, std::int64_t{1} << 56};
+      for (std::int64_t d = 5; d < 1'000'000'000'000'000; d = 3 * d + 1) distances.push_back(d);
+      for (const std::int64_t d : distances) {
+        const bool is_real = rate == one + one / 20'000 || rate == one - one / 20'000;
+        asked += is_real ? 1 : 0;
+        const auto found = inverse.at(LocalTime::from_ps(1'000'007 + d));
+        if (!found) {
+          silent += is_real ? 1 : 0;
+          continue;
+        }
+        // rate * (t - start) reaches what is missing, and a picosecond before it did not.
+        const sim::int128 missing = (sim::int128{d} << RateOffset::fraction_bits) - static_cast<sim::int128>(fraction);
+        const sim::int128 elapsed = found->ps() - 77;
+        EXPECT_GE(elapsed * static_cast<sim::int128>(rate), missing) << rate << " " << fraction << " " << d;
+        EXPECT_LT((elapsed - 1) * static_cast<sim::int128>(rate), missing) << rate << " " << fraction << " " << d;
+      }
+      EXPECT_FALSE(inverse.at(LocalTime::from_ps(1'000'007))) << "the start may be a step";
+      EXPECT_FALSE(inverse.at(LocalTime::from_ps(5)));
+      EXPECT_FALSE(inverse.at(LocalTime::never()));
+    }
+  }
+  EXPECT_LT(silent, asked / 20) << asked;
+}
+
+TEST(SegmentInverse, SaysNothingOfRatesAndTimesThatItDoesNotKnow) {
+  const LocalTime soon = local(1_us);
+  EXPECT_FALSE(SegmentInverse().at(soon));
+  EXPECT_TRUE(SegmentInverse(TrueTime(), 0, ClockRate::one()).at(soon));
+  EXPECT_FALSE(SegmentInverse(TrueTime(), 0, ClockRate::from_multiple(std::uint64_t{RateOffset::one} / 2 - 1)).at(soon));
+  EXPECT_FALSE(SegmentInverse(TrueTime::from_ps(INT64_MAX - 10'000'000), 0, ClockRate::one()).at(soon));
+  EXPECT_FALSE(SegmentInverse(TrueTime(), sim::int128{INT64_MAX - 10} << RateOffset::fraction_bits, ClockRate::one()).at(LocalTime::never()));
+}
+
+TEST(EqualSteps, AreWhatTheClockSaysOfEach) {
+  ASSERT_TRUE(rc::check("after changes of rate and steps", [] {
+    LocalClock clock;
+    const TrueTime last = disturb(clock, true);
+    const LocalTime first = clock.local_at(last) + Duration::from_ps(*rc::gen::inRange<std::int64_t>(-1'000'000'000, 1'000'000'000'000));
+    const Duration step = Duration::from_ps(std::int64_t{1} << *rc::gen::inRange(0, 50)) + Duration::from_ps(*rc::gen::inRange<std::int64_t>(0, 1000));
+    EqualSteps steps = clock.steps_from(first, step);
+    RC_ASSERT(steps.is_set() == (clock.true_at(first) > last));
+    RC_PRE(steps.is_set());
+    for (int i = 1; i <= 200; ++i) RC_ASSERT(steps.next() == clock.true_at(first + step * i));
+  }));
+}
+
+TEST(EqualSteps, OfAnIdealClockAreItsOwn) {
+  const LocalClock clock;
+  EqualSteps steps = clock.steps_from(LocalTime(), 20_us);
+  ASSERT_TRUE(steps.is_set());
+  EXPECT_EQ(steps.next(), true_time(20_us));
+  EXPECT_EQ(steps.next(), true_time(40_us));
+  EXPECT_FALSE(EqualSteps().is_set());
+  EXPECT_FALSE(clock.steps_from(LocalTime::from_ps(-1), 20_us).is_set());
+  EXPECT_FALSE(clock.steps_from(LocalTime::never(), 20_us).is_set());
+  EXPECT_THROW(static_cast<void>(clock.steps_from(LocalTime(), -(1_ps))), sim::InvariantBroken);
+}
+
+TEST(EqualSteps, EndWithTime) {
+  LocalClock clock;
+  clock.set_hardware_rate(TrueTime(), ClockRate::from_multiple(1));   // all but stands still
+  EqualSteps steps = clock.steps_from(LocalTime::from_ps(3), 1_s);
+  EXPECT_FALSE(steps.is_set()) << "it never shows even 3 ps";
+  clock.set_hardware_rate(true_time(1_s), ppm(-500'000));
+  const LocalTime first = local(1_s);
+  const Duration step = Duration::from_ps(INT64_MAX / 3);
+  steps = clock.steps_from(first, step);
+  ASSERT_TRUE(steps.is_set());
+  EXPECT_EQ(steps.next(), clock.true_at(first + step));
+  EXPECT_EQ(steps.next(), TrueTime::never());
+  EXPECT_EQ(clock.true_at(first + step * 2), TrueTime::never());
+  EXPECT_EQ(steps.next(), TrueTime::never());
+}
+
 }  // namespace
 }  // namespace takt::models::local_clock_test

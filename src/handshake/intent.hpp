@@ -61,7 +61,11 @@ struct Intent {
   std::uint8_t origin = 0;              ///< participant that raised it: 0 the master, 1..n the slaves
   std::uint32_t run = 0;                ///< the run it opens (Start) or belongs to; 0 for Halt
 
-  constexpr bool operator==(const Intent&) const = default;
+  /// As the default one; the two octets are compared as one number.
+  constexpr bool operator==(const Intent& other) const {
+    const auto who = [](const Intent& intent) { return static_cast<std::uint16_t>(static_cast<unsigned>(intent.kind) | static_cast<unsigned>(intent.origin) << 8); };
+    return number == other.number && run == other.run && who(*this) == who(other);
+  }
 };
 
 constexpr Standing standing_of(const Intent& intent, const Intent& to) {

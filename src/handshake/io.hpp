@@ -120,9 +120,9 @@ struct Outputs {
   bool process_started = false;       ///< Running was entered
   /// INIT was entered: initialise (abandoning an older initialisation), then say Initialised.
   bool begin_initialisation = false;
+  std::uint32_t initialisation_run = 0;  ///< to hand back with Initialised
   std::uint8_t change_count = 0;
   std::array<StateChange, max_changes> change{};
-  std::uint32_t initialisation_run = 0;  ///< to hand back with Initialised
   PeerSet arm_timeout = 0;            ///< peers whose MessageReceiveTimeout starts anew now
 
   constexpr std::span<const StateChange> changes() const { return {change.data(), change_count}; }
@@ -132,6 +132,7 @@ struct Outputs {
     TAKT_CHECK(change_count < max_changes, "a step changes the state three times at most");
     change[change_count++] = next;
   }
+  constexpr bool operator==(const Outputs&) const = default;
 };
 
 }  // namespace takt::handshake

@@ -16,17 +16,21 @@ Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
   // Nearly all steps are these, once a cycle for each peer.
-  if (input.kind == Input::Kind::received && config_.variant == Variant::robust && machine_.state() != program::State::Ready &&
-      !machine_.initialising() && robust_says_nothing_new(input)) {
-    peers_[input.peer].sequence = input.sequence;
-    Outputs outputs;
-    outputs.arm_timeout = PeerSet{1} << input.peer;
-    return outputs;  // robust_barrier() would not move from here
-  }
-  return take(input);
+  if (input.kind != Input::Kind::received || config_.variant != Variant::robust) return take(input);
+  if (!robust_is_in_line(input)) return robust_hear(input);
+  if (machine_.state() == program::State::Ready || machine_.initialising() || !robust_says_nothing_new(input)) return robust_follow(input);
+  peers_[input.peer].sequence = input.sequence;
+  Outputs outputs;
+  outputs.arm_timeout = PeerSet{1} << input.peer;
+  return outputs;  // robust_barrier() would not move from here
 }
 
-/// A step with all that may come of it.
+template <std::size_t MaxPeers>
+Outputs Participant<MaxPeers>::step_at_length(const Input& input) {
+  return input.kind == Input::Kind::received && config_.variant == Variant::robust ? robust_hear(input) : take(input);
+}
+
+/// A step with all that may come of it; but a word in `robust`.
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::take(const Input& input) {
   const bool robust = config_.variant == Variant::robust;
@@ -43,8 +47,8 @@ Outputs Participant<MaxPeers>::take(const Input& input) {
         robust ? robust_command(input.method, outputs) : paper_command(input.method, outputs);
       break;
     case Input::Kind::received:
-      TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
-      robust ? robust_received(input, outputs) : paper_received(input, outputs);
+      TAKT_CHECK(input.peer < peer_count() && !robust, "a word comes from a peer");
+      paper_received(input, outputs);
       break;
     case Input::Kind::initialised: initialised(input.run, outputs); break;
     case Input::Kind::finished: finished(input.coupled, outputs); break;
@@ -69,20 +73,26 @@ Outputs Participant<MaxPeers>::take(const Input& input) {
   }
   outputs.publish = outputs.publish || state() != state_before || run_ != run_before;
   if (input.coupled && outputs.raised) outputs.alarm = Alarm::other_group;
-  TAKT_CHECK(is_valid(word(), config_.variant, config_.slaves), "a participant is what its intent says");
+  check_word(outputs);
   return outputs;
 }
 
-/// A word of which robust_received would note the sequence number only: what the peer said last, under the intent that stands here, and
-/// no sign of a barrier that was taken without this participant.
+/// A word behind the last one of the same life of a peer, under the intent that stands here.
+template <std::size_t MaxPeers>
+inline bool Participant<MaxPeers>::robust_is_in_line(const Input& input) const {
+  if (input.word.intent != intent_ || input.peer >= MaxPeers) return false;
+  const Peer& peer = peers_[input.peer];   // one that is no peer was never heard
+  const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(input.sequence - peer.sequence));
+  return peer.sequence_known && ahead >= 0 && input.word.incarnation == peer.incarnation;
+}
+
+/// Such a word of which robust_received would note the sequence number only: what the peer said last, and no sign of a barrier that was taken without
+/// this participant.
 template <std::size_t MaxPeers>
 inline bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
-  TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
   const Peer& peer = peers_[input.peer];
   const Word& word = input.word;
-  const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(input.sequence - peer.sequence));
-  const bool is_same = word.state == peer.state && word.run == peer.run && word.incarnation == peer.incarnation && word.intent == intent_;
-  return is_same && peer.sequence_known && ahead >= 0 && (is_master() || word.run == run_ || word.run != intent_.run);
+  return word.state == peer.state && word.run == peer.run && (is_master() || word.run == run_ || word.run != intent_.run);
 }
 
 /// One that is nested may be Ready already: then the run that it is to be Ready in has waited for the other group.
@@ -153,12 +163,12 @@ void Participant<MaxPeers>::move_to(PublishedState target, Outputs& outputs) {
   if (target == from) return;
   if (target == PublishedState::Halted) run_ = 0;
   initialised_ = false;
-  if (base_state(from) == base_state(target)) {
+  if (machine_.state() == base_state(target)) {
     machine_.leave_init();
     record(0, from, outputs);
     return;
   }
-  const program::Transition* transition = program::transition_between(base_state(from), base_state(target));
+  const program::Transition* transition = program::transition_between(machine_.state(), base_state(target));
   TAKT_CHECK(transition != nullptr, "the rules ask only for moves that one transition makes");
   machine_.apply(*transition);
   record(transition->number, from, outputs);
@@ -185,7 +195,16 @@ void Participant<MaxPeers>::record(std::uint8_t transition, PublishedState from,
 /// Keeps ready_ and running_ true for all peers, after intent_ has changed.
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::sort_all_peers() {
-  for (std::size_t peer = 0; peer < peer_count(); ++peer) sort_peer(peer);
+  PeerSet ready = 0;
+  PeerSet running = 0;
+  const std::size_t count = peer_count();
+  for (std::size_t peer = 0; peer < count; ++peer) {
+    const PeerSet counts = peers_[peer].run == intent_.run ? 1 : 0;
+    ready |= (peers_[peer].state == PublishedState::Ready ? counts : 0) << peer;
+    running |= (peers_[peer].state == PublishedState::Running ? counts : 0) << peer;
+  }
+  ready_ = ready;
+  running_ = running;
 }
 
 template <std::size_t MaxPeers>

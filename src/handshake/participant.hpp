@@ -14,6 +14,7 @@
 #include "handshake/io.hpp"
 #include "handshake/word.hpp"
 #include "program/machine.hpp"
+#include "sim/check.hpp"
 
 namespace takt::handshake {
 
@@ -44,6 +45,8 @@ class Participant {
   explicit Participant(const Config& config);
 
   Outputs step(const Input& input);
+  /// The same without the short cuts that most words take, for tests of these.
+  Outputs step_at_length(const Input& input);
 
   const Config& config() const { return config_; }
   PublishedState state() const { return published_state(machine_); }
@@ -121,6 +124,12 @@ class Participant {
 
   // participant.cpp: shared by both variants
   Outputs take(const Input& input);
+  /// After a step. What was said before it was valid, and so is an intent that was adopted.
+  void check_word(const Outputs& outputs) const {
+    if (!outputs.publish || config_.variant == Variant::paper) return;
+    TAKT_CHECK(may_hold(intent_, state(), run_), "a participant is what its intent says");
+    TAKT_CHECK(!outputs.raised || is_valid(intent_, config_.slaves), "an intent that is raised can be");
+  }
   void move_to(PublishedState target, Outputs& outputs);
   void enter_init(Outputs& outputs);
   void initialised(std::uint32_t run, Outputs& outputs);
@@ -138,7 +147,10 @@ class Participant {
   // robust.cpp
   void robust_command(program::Method method, Outputs& outputs);
   void robust_received(const Input& input, Outputs& outputs);
+  bool robust_is_in_line(const Input& input) const;
   bool robust_says_nothing_new(const Input& input) const;
+  Outputs robust_follow(const Input& input);
+  Outputs robust_hear(const Input& input);
   void robust_silent(std::size_t peer, Outputs& outputs);
   bool robust_may_start() const;
   bool robust_may_suspend() const;

@@ -89,7 +89,7 @@ bool Participant<MaxPeers>::robust_may_suspend() const {
 }
 
 template <std::size_t MaxPeers>
-void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs) {
+inline void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs) {
   const Word& word = input.word;
   const bool is_sound = is_valid(word, Variant::robust, config_.slaves);
   const Freshness freshness = is_sound ? note_word(peers_[input.peer], word, input.sequence) : Freshness::stale;
@@ -112,6 +112,40 @@ void Participant<MaxPeers>::robust_received(const Input& input, Outputs& outputs
     adopt(word.intent, outputs);
   }
   robust_barrier(outputs);
+}
+
+/// A step with a word.
+template <std::size_t MaxPeers>
+Outputs Participant<MaxPeers>::robust_hear(const Input& input) {
+  TAKT_CHECK(input.peer < peer_count(), "a word comes from a peer");
+  Outputs outputs;
+  const std::uint32_t run_before = run_;
+  robust_received(input, outputs);
+  outputs.publish = outputs.publish || outputs.change_count > 0 || run_ != run_before;   // INIT is begun anew for a new intent only
+  check_word(outputs);
+  return outputs;
+}
+
+/// The same of a word that is in line, shorter: its intent is the one here, which is valid, and it is fresh. An alarm is left to the long way.
+template <std::size_t MaxPeers>
+Outputs Participant<MaxPeers>::robust_follow(const Input& input) {
+  const Word& word = input.word;
+  Outputs outputs;
+  if (!may_hold(word.intent, word.state, word.run) || counted_without_me(input.peer, word) || ran_without_me(word)) [[unlikely]] {
+    outputs = robust_hear(input);
+    return outputs;
+  }
+  Peer& peer = peers_[input.peer];
+  peer.run = word.run;
+  peer.sequence = input.sequence;
+  peer.state = word.state;
+  sort_peer(input.peer);
+  outputs.arm_timeout = PeerSet{1} << input.peer;
+  const std::uint32_t run_before = run_;
+  robust_barrier(outputs);
+  outputs.publish = outputs.change_count > 0 || run_ != run_before;
+  check_word(outputs);
+  return outputs;
 }
 
 /// Remembers a word unless it is older than what is known.
@@ -220,7 +254,8 @@ void Participant<MaxPeers>::robust_barrier(Outputs& outputs) {
 }
 
 template void Participant<4>::robust_command(Method, Outputs&);
-template void Participant<4>::robust_received(const Input&, Outputs&);
+template Outputs Participant<4>::robust_hear(const Input&);
+template Outputs Participant<4>::robust_follow(const Input&);
 template void Participant<4>::robust_silent(std::size_t, Outputs&);
 template void Participant<4>::raise(IntentKind, std::uint32_t, Outputs&);
 template void Participant<4>::robust_barrier(Outputs&);
@@ -228,7 +263,8 @@ template void Participant<4>::raise_alarm(Alarm, std::uint32_t, Outputs&);
 template bool Participant<4>::robust_may_start() const;
 template bool Participant<4>::robust_may_suspend() const;
 template void Participant<64>::robust_command(Method, Outputs&);
-template void Participant<64>::robust_received(const Input&, Outputs&);
+template Outputs Participant<64>::robust_hear(const Input&);
+template Outputs Participant<64>::robust_follow(const Input&);
 template void Participant<64>::robust_silent(std::size_t, Outputs&);
 template void Participant<64>::raise(IntentKind, std::uint32_t, Outputs&);
 template void Participant<64>::robust_barrier(Outputs&);

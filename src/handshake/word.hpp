@@ -60,33 +60,40 @@ struct Word {
   constexpr bool operator==(const Word&) const = default;
 };
 
+namespace detail {
+inline constexpr std::array<PublishedState, intent_kind_count> goals{
+    PublishedState::Running, PublishedState::Running, PublishedState::Suspended,
+    PublishedState::Ready,   PublishedState::Ready,   PublishedState::Halted};
+}  // namespace detail
+
 /// The state that an intent names as the goal of the whole group.
-constexpr PublishedState goal_of(IntentKind kind) {
-  constexpr std::array<PublishedState, intent_kind_count> goals{
-      PublishedState::Running, PublishedState::Running, PublishedState::Suspended,
-      PublishedState::Ready,   PublishedState::Ready,   PublishedState::Halted};
-  return goals[index_of(kind)];
+constexpr PublishedState goal_of(IntentKind kind) { return detail::goals[index_of(kind)]; }
+
+/// Whether one who holds an intent, which is valid by itself, can be in this state and in this run (README.md, "Words"): whoever follows an intent does so at once.
+constexpr bool may_hold(const Intent& intent, PublishedState state, std::uint32_t run) {
+  if (intent.kind == IntentKind::Halt) return state == PublishedState::Halted && run == 0;
+  if (intent.kind != IntentKind::Start) return state == goal_of(intent.kind) && run == intent.run;
+  switch (state) {
+    case PublishedState::HaltedInit: return run == 0;
+    case PublishedState::Ready: return is_run(run);  // or that of the run before, while others are not there yet
+    case PublishedState::Running: return run == intent.run;
+    default: return false;
+  }
+}
+
+/// Whether there is such an intent in a group with so many slaves.
+constexpr bool is_valid(const Intent& intent, std::size_t slaves) {
+  if (index_of(intent.kind) >= intent_kind_count || intent.origin > slaves) return false;
+  if (intent.number == 0) return intent == Intent{};
+  if (intent.kind == IntentKind::Halt) return intent.run == 0;
+  return is_run(intent.run) && (intent.kind != IntentKind::Start || (intent.origin == 0 && intent.run == run_of(intent.run >> 16, intent.number)));
 }
 
 /// Whether a participant of a group with so many slaves can say this word: every field by itself, and what they say together. One that is
-/// not is hostile or damaged, not takt's error, and nothing of it is believed. `paper` says its state only. Whoever follows an
-/// intent does so at once, so the intent says in which states and runs its holder can be (README.md, "Words").
+/// not is hostile or damaged, not takt's error, and nothing of it is believed. `paper` says its state only.
 constexpr bool is_valid(const Word& word, Variant variant, std::size_t slaves) {
   if (!published_state_from_number(static_cast<std::uint32_t>(word.state))) return false;
-  if (variant == Variant::paper) return true;
-  const Intent& intent = word.intent;
-  if (index_of(intent.kind) >= intent_kind_count || intent.origin > slaves) return false;
-  if (intent.number == 0) return intent == Intent{} && word.state == PublishedState::Halted && word.run == 0;
-  if (intent.kind == IntentKind::Halt) return intent.run == 0 && word.run == 0 && word.state == PublishedState::Halted;
-  if (!is_run(intent.run)) return false;
-  if (intent.kind != IntentKind::Start) return word.state == goal_of(intent.kind) && word.run == intent.run;
-  if (intent.origin != 0 || intent.run != run_of(intent.run >> 16, intent.number)) return false;
-  switch (word.state) {
-    case PublishedState::HaltedInit: return word.run == 0;
-    case PublishedState::Ready: return is_run(word.run);  // or that of the run before, while others are not there yet
-    case PublishedState::Running: return word.run == intent.run;
-    default: return false;
-  }
+  return variant == Variant::paper || (is_valid(word.intent, slaves) && may_hold(word.intent, word.state, word.run));
 }
 
 }  // namespace takt::handshake

@@ -41,7 +41,9 @@ class Group {
   /// One step; everything that a host and the observers do with its outputs.
   Outputs step(std::size_t i, const Input& input) {
     const Word before = members_[i].word();
+    Member at_length = members_[i];
     const Outputs outputs = members_[i].step(input);
+    EXPECT_TRUE(outputs == at_length.step_at_length(input) && members_[i] == at_length) << "a short cut leads elsewhere";
     EXPECT_EQ(outputs.publish, members_[i].word() != before);
     observer.on_step(i, outputs, members_[i].word());
     reactions.on_step(i, outputs, members_[i].word(), now);

@@ -15,14 +15,15 @@ Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
 
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
-  // Nearly all steps are these, once a cycle for each peer.
-  if (input.kind != Input::Kind::received || config_.variant != Variant::robust) return take(input);
-  if (!robust_is_in_line(input)) return robust_hear(input);
-  if (machine_.state() == program::State::Ready || machine_.initialising() || !robust_says_nothing_new(input)) return robust_follow(input);
-  peers_[input.peer].sequence = input.sequence;
-  Outputs outputs;
-  outputs.arm_timeout = PeerSet{1} << input.peer;
-  return outputs;  // robust_barrier() would not move from here
+  // Nearly all steps are these, once a cycle for each peer. (In `paper` no word is in line.)
+  if (input.kind == Input::Kind::received && robust_is_in_line(input)) [[likely]] {
+    if (machine_.state() == program::State::Ready || machine_.initialising() || !robust_says_nothing_new(input)) return robust_follow(input);
+    peers_[input.peer].sequence = input.sequence;
+    Outputs outputs;
+    outputs.arm_timeout = PeerSet{1} << input.peer;
+    return outputs;  // robust_barrier() would not move from here
+  }
+  return step_at_length(input);
 }
 
 template <std::size_t MaxPeers>
@@ -92,7 +93,7 @@ template <std::size_t MaxPeers>
 inline bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
   const Peer& peer = peers_[input.peer];
   const Word& word = input.word;
-  return word.state == peer.state && word.run == peer.run && (is_master() || word.run == run_ || word.run != intent_.run);
+  return word.state == peer.state && word.run == peer.run && (word.run == run_ || is_master() || word.run != intent_.run);
 }
 
 /// One that is nested may be Ready already: then the run that it is to be Ready in has waited for the other group.

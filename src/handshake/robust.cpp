@@ -136,10 +136,12 @@ Outputs Participant<MaxPeers>::robust_follow(const Input& input) {
     return outputs;
   }
   Peer& peer = peers_[input.peer];
-  peer.run = word.run;
   peer.sequence = input.sequence;
-  peer.state = word.state;
-  sort_peer(input.peer);
+  if (word.state != peer.state || word.run != peer.run) {
+    peer.run = word.run;
+    peer.state = word.state;
+    sort_peer(input.peer);
+  }
   outputs.arm_timeout = PeerSet{1} << input.peer;
   const std::uint32_t run_before = run_;
   robust_barrier(outputs);
@@ -198,9 +200,10 @@ void Participant<MaxPeers>::adopt(const Intent& intent, Outputs& outputs) {
     raise_alarm(Alarm::mismatch, intent.number, outputs);
     return;
   }
+  const bool is_another_run = intent.run != intent_.run;
   intent_ = intent;
   outputs.publish = true;
-  sort_all_peers();
+  if (is_another_run) sort_all_peers();
   // One that is nested joins the new run when the other group is ready for it (Initialised).
   if (intent.kind == IntentKind::Start && state() == ready && !config_.nested) run_ = intent.run;
   move_to(*target, outputs);
@@ -213,14 +216,15 @@ void Participant<MaxPeers>::raise(IntentKind kind, std::uint32_t above, Outputs&
   const std::uint32_t run = kind == IntentKind::Start ? run_of(config_.incarnation, number) : kind == IntentKind::Halt ? 0 : run_;
   const Intent made{number, kind, config_.index, run};
   outputs.publish = outputs.publish || made != intent_;
+  const bool is_another_run = run != intent_.run;
   intent_ = made;
-  sort_all_peers();
+  if (is_another_run) sort_all_peers();
   outputs.raised = true;
   outputs.raised_kind = kind;
 }
 
 template <std::size_t MaxPeers>
-void Participant<MaxPeers>::raise_alarm(Alarm alarm, std::uint32_t above, Outputs& outputs) {
+[[gnu::cold]] void Participant<MaxPeers>::raise_alarm(Alarm alarm, std::uint32_t above, Outputs& outputs) {
   raise(IntentKind::Halt, above, outputs);
   outputs.alarm = alarm;
   move_to(halted, outputs);

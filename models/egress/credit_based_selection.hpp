@@ -27,8 +27,8 @@ class CreditBasedSelection {
   void force_gate(const GateInForce& gate, sim::TrueTime now, std::optional<bool> open);
   /// `now` if the credit is not negative, otherwise when to ask again. The gate is open.
   sim::TrueTime ready_time(const GateInForce& gate, sim::TrueTime now);
-  /// At a port without gates: a frame has come where none of the class waits, and takes the free medium for `occupancy` if the credit is not negative. Otherwise it waits.
-  bool start_alone(sim::TrueTime now, sim::Duration occupancy) { return credit_.start_alone(now, occupancy); }
+  /// At a port without gates: CreditBasedShaper::starts_at_rest().
+  bool starts_at_rest(sim::TrueTime now, sim::Duration occupancy) { return credit_.starts_at_rest(now, occupancy); }
   /// How many bits the credit lacks, rounded up.
   std::uint32_t missing_bits(const GateInForce& gate, sim::TrueTime now) {
     const CreditBasedShaper& credit = credit_at(gate, now);

@@ -58,18 +58,21 @@ void CreditBasedShaper::transmission_started(TrueTime now, Duration occupancy, b
   TAKT_CHECK(gate_open_ && credit_.units >= 0, "a shaped class starts a frame with an open gate and no debt");
   transmission_resumed(now, occupancy);
   queue_empty_ = queue_empty_now;
+  if (queue_empty_) recovery_ps_ = recovery_of(occupancy);
 }
 
 void CreditBasedShaper::transmission_resumed(TrueTime now, Duration occupancy) {
   advance(now);
   TAKT_CHECK(now >= free_at_ && occupancy >= Duration(), "one transmission of a class follows another");
   free_at_ = now + occupancy;
+  recovery_ps_ = unknown;
 }
 
 void CreditBasedShaper::transmission_cut(TrueTime now, TrueTime free_at) {
   advance(now);
   TAKT_CHECK(free_at >= now && now <= free_at_, "only a transmission under way is cut, and not in the past");
   free_at_ = free_at;
+  recovery_ps_ = unknown;
 }
 
 void CreditBasedShaper::set_idle_slope(TrueTime now, CreditSlope idle_slope) {
@@ -90,6 +93,11 @@ void CreditBasedShaper::set_slopes(CreditSlope idle_slope) {
   TAKT_CHECK(idle_slope.numerator <= rate, "an idle slope is at most the port's rate");
   idle_slope_ = idle_slope;
   send_slope_ = idle_slope.numerator - static_cast<std::int64_t>(rate);
+  recovery_ps_ = unknown;
+  recovery_factor_ = unknown;
+  if (idle_slope.numerator == 0) return;
+  const int128 factor = ceil_quotient(int128{-send_slope_} << factor_bits, idle_slope.numerator);
+  if (factor <= greatest_factor) recovery_factor_ = static_cast<std::int64_t>(factor);
 }
 
 sim::Duration second_class_interference(sim::Octets lower, sim::Octets frame_a, CreditSlope idle_slope_a,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <limits>
 
 #include "sim/check.hpp"
 #include "sim/time.hpp"
@@ -62,14 +63,16 @@ class CreditBasedShaper {
   sim::Duration growth_needed(sim::TrueTime now) const;
 
   /// A frame waits in the queue.
-  void frame_enqueued(sim::TrueTime now) { advance(now); queue_empty_ = false; }
-  /// frame_enqueued(), and transmission_started() if the frame may start at once and is the only one: true then. Precondition: nothing of the class is being sent.
-  bool start_alone(sim::TrueTime now, sim::Duration occupancy) {
-    frame_enqueued(now);
-    if (!gate_open_ || credit_.units < 0) return false;
-    TAKT_CHECK(now >= free_at_ && occupancy >= sim::Duration(), "one transmission of a class follows another");
+  void frame_enqueued(sim::TrueTime now) { advance(now); queue_empty_ = false; recovery_ps_ = unknown; }
+  /// frame_enqueued() and transmission_started() of a frame that comes where none waits, if credit is surely back at 0 since the one before it: true then. Otherwise nothing has
+  /// happened.
+  bool starts_at_rest(sim::TrueTime now, sim::Duration occupancy) {
+    if ((now - free_at_).ps() < recovery_ps_) return false;
+    TAKT_CHECK(now >= updated_, "a shaper is not asked about its past");
+    credit_.units = 0;
+    updated_ = now;
     free_at_ = now + occupancy;
-    queue_empty_ = true;
+    recovery_ps_ = recovery_of(occupancy);
     return true;
   }
   /// No frame waits any more, for another reason than a start.
@@ -81,7 +84,7 @@ class CreditBasedShaper {
   /// The transmission under way ends at `free_at` instead: it is preempted.
   void transmission_cut(sim::TrueTime now, sim::TrueTime free_at);
   void gate_opened(sim::TrueTime now) { advance(now); gate_open_ = true; }
-  void gate_closed(sim::TrueTime now) { advance(now); gate_open_ = false; }
+  void gate_closed(sim::TrueTime now) { advance(now); gate_open_ = false; recovery_ps_ = unknown; }
   /// Another slope from now on: the gate list has changed. The denominator may change; credit is rounded towards minus infinity.
   void set_idle_slope(sim::TrueTime now, CreditSlope idle_slope);
 
@@ -104,6 +107,16 @@ class CreditBasedShaper {
   }
 
  private:
+  static constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
+  static constexpr int factor_bits = 8;
+  static constexpr std::int64_t greatest_factor = 1 << 14;
+  static constexpr std::int64_t longest_known = std::int64_t{1} << 48;   // its product with greatest_factor does not overflow
+
+  /// How long credit that is 0 or more when a transmission begins takes at most to get back to 0 after it, with an open gate; unknown where that is not worth knowing.
+  std::int64_t recovery_of(sim::Duration occupancy) const {
+    if (recovery_factor_ == unknown || occupancy.ps() > longest_known) return unknown;
+    return (occupancy.ps() * recovery_factor_ >> factor_bits) + 1;
+  }
   /// Credit at `now`, from what is known since updated_.
   void advance(sim::TrueTime now) {
     TAKT_CHECK(now >= updated_, "a shaper is not asked about its past");
@@ -122,6 +135,9 @@ class CreditBasedShaper {
   }
   void set_slopes(CreditSlope idle_slope);
 
+  /// So long after free_at_ credit is 0, unless something else happens: nothing waits, and the gate is open. Or unknown.
+  std::int64_t recovery_ps_ = unknown;
+  std::int64_t recovery_factor_ = unknown;   ///< -send_slope / idle_slope in 2^-factor_bits, rounded up
   Credit credit_;                // at updated_
   sim::TrueTime updated_;
   sim::TrueTime free_at_;        // when the transmission under way, or the last one, ends

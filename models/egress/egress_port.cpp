@@ -30,7 +30,7 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
   if (config.cut_through != 0) link_.check_arrivals();
 }
 
-inline void EgressPort::find_path() {
+void EgressPort::find_path() {
   if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && link_.is_plain() && !extras_->expects_headers)
     path_ = Path::merging;
   else
@@ -62,14 +62,23 @@ void EgressPort::prepare() {
 }
 
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
-  if (event.kind() == stored_frame) {
-    take_stored(simulation, event.argument);
-    return;
-  }
-  TAKT_CHECK(event.kind() == wake_up, "an event of another component");
-  if (event.time != wake_at_) return;  // an earlier wake-up took its place
+  if (event.kind() == wake_up) [[likely]]
+    wake(simulation, event.time);
+  else
+    take_stored(simulation, event);
+}
+
+inline void EgressPort::wake(sim::Simulation& simulation, sim::TrueTime time) {
+  if (time != wake_at_) return;  // an earlier wake-up took its place
   wake_at_ = sim::TrueTime::never();
-  if (!settling_ && simulation.instant_is_complete()) [[likely]]
+  if (!settling_ && simulation.instant_is_surely_complete()) [[likely]]
+    settle_many(simulation);
+  else
+    wake_among_others(simulation);
+}
+
+void EgressPort::wake_among_others(sim::Simulation& simulation) {
+  if (!settling_ && simulation.instant_is_complete())
     settle_many(simulation);
   else
     settle_later(simulation);
@@ -85,161 +94,86 @@ void EgressPort::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
   }
 }
 
-/// A frame comes alone to a free medium at a port that has gates and nothing else: most often in the window of the frame before it.
-void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  if (clock_->is_ideal() && only_gates_->is_in_known_window(q, clock_->local_at(simulation.now()), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}))) [[likely]] {
-    sending_ = q;
-    start(simulation, frame, record);
-  } else {
-    pass_gate_exactly(simulation, frame, record);
-  }
-}
-
-void EgressPort::pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const sim::TrueTime now = simulation.now();
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  const StartAnswer answer = only_gates_->may_start(q, clock_->local_at(now), octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}));
-  if (answer.may_start) [[likely]] {
-    sending_ = q;
-    start(simulation, frame, record);
-    return;
-  }
-  admit(simulation, frame);
-  if (queues_.empty()) return;   // a frame that found no room is no more, and nobody waits
-  path_ = Path::general;
-  promised_ = clock_->true_after(answer.ask_again, now);
-  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, promised_);
-  wake_at(simulation, promised_);
-}
-
-/// The same at a port that has other shapers, too: most often without gates, and what it asks for is there.
-void EgressPort::pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  if (clock_->is_ideal() && shaping_->starts_alone_without_gates(simulation.now(), clock_->local_at(simulation.now()), q, record.length, eligible_of(record))) [[likely]] {
-    sending_ = q;
-    start(simulation, frame, record);
-  } else {
-    pass_shaping_exactly(simulation, frame, record);
-  }
-}
-
-void EgressPort::pass_shaping_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const sim::TrueTime now = simulation.now();
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  const sim::TrueTime ready = shaping_->start_alone(now, q, {record.length, eligible_of(record)});
-  if (ready == now) [[likely]] {
-    sending_ = q;
-    start(simulation, frame, record);
-    return;
-  }
-  admit(simulation, frame);
-  find_path();
-  promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
-  if (queues_.empty()) return;   // as above
-  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
-  wake_at(simulation, ready);
-}
-
-/// One frame, nothing waits, the medium is free, and the path is not the general one.
-inline void EgressPort::pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  if (path_ == Path::plain)
-    start(simulation, frame, record);
-  else if (path_ == Path::gated)
-    pass_gate(simulation, frame, record);
-  else if (path_ == Path::shaped)
-    pass_shaping(simulation, frame, record);
-  else
-    pass_merging(simulation, frame, record);
-}
-
-/// offer_last() where the instant may not be complete, or the frame does not just start.
-void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-  if (!simulation.instant_is_complete()) {
-    offer(simulation, frame, rank);
-    return;
-  }
-  take_only(simulation, frame, record, rank);
-}
-
-void EgressPort::take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-  if (simulation.now() >= link_.free_at() && path_ != Path::general) [[likely]] {
-    pass_alone(simulation, frame, record);
-    return;
-  }
-  has_arrival_ = true;
-  arrival_ = {frame, rank};
-  settle_many(simulation);
-}
-
-void EgressPort::settle(sim::Simulation& simulation) {
-  settling_ = false;
-  // The common case: one frame, nothing waits, the medium is free.
-  if (has_arrival_ && path_ != Path::general && more_arrivals_.empty() && simulation.now() >= link_.free_at()) [[likely]] {
-    has_arrival_ = false;
-    pass_alone(simulation, arrival_.frame, shared_->traffic->frame(arrival_.frame));
-    return;
-  }
-  settle_many(simulation);
-}
-
 /// One frame has come to a port with gates or shapers where nothing waits.
-inline void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame) {
-  if (shaping_->limits_sdu() && !passes_max_sdu(simulation, frame)) return;
-  if (simulation.now() >= link_.free_at()) {
-    pass_shaping(simulation, frame, shared_->traffic->frame(frame));
-    return;
+void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame) {
+  has_arrival_ = false;
+  if (!shaping_->limits_sdu() || passes_max_sdu(simulation, frame)) {
+    if (simulation.now() >= link_.free_at()) {
+      pass_shaping(simulation, frame, shared_->traffic->frame(frame));
+    } else {
+      shaping_->frame_waits(simulation.now(), class_of(frame));
+      admit(simulation, frame);
+      if (!queues_.empty()) wake_at(simulation, link_.free_at());
+    }
   }
-  shaping_->frame_waits(simulation.now(), class_of(frame));
+  find_path();
+}
+
+/// One frame has come to a busy medium at a port that has gates at most: whatever waits, it waits, too.
+void EgressPort::wait_for_medium(sim::Simulation& simulation, FrameIndex frame) {
+  has_arrival_ = false;
+  promised_ = sim::TrueTime::never();
+  path_ = Path::general;
   admit(simulation, frame);
+  has_new_head_ = false;   // the heads are looked at when the medium is free
   if (!queues_.empty()) wake_at(simulation, link_.free_at());
 }
 
-/// The common case of a port that wakes up: frames of one class wait.
-inline void EgressPort::settle_waiting(sim::Simulation& simulation) {
-  const sim::TrueTime now = simulation.now();
-  const TrafficClass q = highest_class(queues_.waiting());
-  const FrameIndex frame = queues_.head(q, shared_->entries);
-  sim::TrueTime ready = link_.free_at();
-  if (now >= link_.free_at()) {
-    ready = shaping_ && promised_ != now ? shaping_->ready_time(now, q, {shared_->traffic->frame(frame).length, eligible_of(frame)}) : now;
-    if (ready == now) {
-      pop(simulation, q);
-      if (shaping_) {
-        shaping_->started(now, q, shared_->traffic->frame(frame).length, queues_.empty());
-        sending_ = q;
-      }
-      start(simulation, frame);
-      find_path();
-      ready = link_.free_at();
-    } else if (simulation.trace() != nullptr) [[unlikely]] {
-      tell_refusal(simulation, q, frame, ready);
-    }
-  }
-  if (!queues_.empty()) wake_at(simulation, ready);
-}
-
-void EgressPort::settle_many(sim::Simulation& simulation) {
-  if (!extras_ && more_arrivals_.empty()) [[likely]] {
-    if (has_arrival_ && queues_.empty() && shaping_) {
-      has_arrival_ = false;
-      settle_one(simulation, arrival_.frame);
-      find_path();
-      return;
-    }
-    if (has_arrival_ && !shaping_ && simulation.now() < link_.free_at()) {
-      has_arrival_ = false;
-      admit(simulation, arrival_.frame);
-      path_ = Path::general;
-      if (!queues_.empty()) wake_at(simulation, link_.free_at());
-      return;
-    }
-    if (!has_arrival_ && is_one_class(queues_.waiting())) {
-      settle_waiting(simulation);
-      return;
-    }
+/// One frame has come to a free medium at a port with gates and nothing else, where others wait: it waits behind them if they are of its class, and have been promised when they may start.
+void EgressPort::wait_for_gate(sim::Simulation& simulation, FrameIndex frame) {
+  const bool is_promised = simulation.now() < promised_ && promised_ != sim::TrueTime::never() && queues_.waiting() == only(class_of(frame));
+  if (is_promised && simulation.trace() == nullptr) {
+    has_arrival_ = false;
+    admit(simulation, frame);
+    if (!has_new_head_) [[likely]] return;
+    has_new_head_ = false;
   }
   settle_all_classes(simulation);
+}
+
+/// The common case of a port that wakes up: frames of one class wait.
+void EgressPort::settle_waiting(sim::Simulation& simulation) {
+  const sim::TrueTime now = simulation.now();
+  if (now < link_.free_at()) {
+    wake_at(simulation, link_.free_at());
+    return;
+  }
+  const TrafficClass q = highest_class(queues_.waiting());
+  const FrameIndex frame = queues_.head(q, shared_->entries);
+  const Frame& record = shared_->traffic->frame(frame);
+  const bool is_ready = !shaping_ || promised_ == now || (only_gates_ != nullptr && is_in_known_window(now, q, record));
+  const sim::TrueTime ready = is_ready ? now : shaping_->ready_time(now, q, {record.length, eligible_of(record)});
+  if (ready != now) {
+    if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
+    wake_at(simulation, ready);
+    return;
+  }
+  pop(simulation, q);
+  if (shaping_) {
+    shaping_->started(now, q, record.length, queues_.empty());
+    sending_ = q;
+  }
+  start(simulation, frame, record);
+  if (queues_.empty())
+    find_path();
+  else
+    wake_at(simulation, link_.free_at());
+}
+
+/// Which way is that of what has come and waits. Like those for a frame that comes alone it ends with what it calls.
+void EgressPort::settle_many(sim::Simulation& simulation) {
+  if (extras_ || !more_arrivals_.empty()) [[unlikely]]
+    settle_all_classes(simulation);
+  else if (!has_arrival_)
+    is_one_class(queues_.waiting()) ? settle_waiting(simulation) : settle_all_classes(simulation);
+  else if (simulation.now() < link_.free_at() && (!shaping_ || only_gates_ != nullptr))
+    wait_for_medium(simulation, arrival_.frame);
+  else if (shaping_ && queues_.empty())
+    settle_one(simulation, arrival_.frame);
+  else if (only_gates_ != nullptr)
+    wait_for_gate(simulation, arrival_.frame);
+  else
+    settle_all_classes(simulation);
 }
 
 /// The general path: whatever has come at this instant and waits. One frame starts, if it may, and the others wait.
@@ -426,6 +360,16 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   DropReason reason{};
+  const bool has_room = queues_.has_room(q, record.length, config_->queue_limits[q], reason);
+  if (!has_room || simulation.trace() != nullptr || (shaping_ && shaping_->is_timed(q))) [[unlikely]]
+    admit_closely(simulation, frame, record, q);
+  else
+    queues_.push(q, frame, record.length, shared_->entries);
+}
+
+/// To a full queue, to one that is not in the order of coming, or where somebody wants to know.
+void EgressPort::admit_closely(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q) {
+  DropReason reason{};
   if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason)) {
     admit_to_full_queue(simulation, frame, q, reason);
     return;
@@ -434,7 +378,7 @@ void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
     queues_.push_in_order(q, frame, record.length, shared_->entries, [this](FrameIndex f) { return eligible_of(f); });
   else
     queues_.push(q, frame, record.length, shared_->entries);
-  if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
+  if (sim::TraceSink* const trace = simulation.trace())
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::enqueued), id(), frame.value, q});
 }
 

@@ -185,16 +185,20 @@ class alignas(64) EgressPort final : public sim::Component {
   };
 
   void settle_many(sim::Simulation& simulation);
-  void settle_all_classes(sim::Simulation& simulation);
-  void settle_one(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void settle_all_classes(sim::Simulation& simulation);
+  [[gnu::noinline]] void settle_one(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void wait_for_medium(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void wait_for_gate(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void settle_waiting(sim::Simulation& simulation);
+  // Of a frame that comes alone: see egress_port_alone.cpp.
   void pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void pass_gate_later(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   [[gnu::noinline]] void pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   [[gnu::noinline]] void pass_shaping_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  [[gnu::noinline]] void pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  void pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  void settle_waiting(sim::Simulation& simulation);
-  // These end with what they call, so that the common case saves no registers.
-  [[gnu::noinline]] void pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void take_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
   void find_path();
   void find_gates();
   void settle_later(sim::Simulation& simulation) {
@@ -210,7 +214,9 @@ class alignas(64) EgressPort final : public sim::Component {
   Selection select_rest(sim::TrueTime now, const MacMerge::Rest& rest);
   sim::TrueTime look_while_busy(sim::Simulation& simulation);
   sim::TrueTime when_to_look(sim::TrueTime now);
-  void take_stored(sim::Simulation& simulation, std::uint64_t argument);
+  void wake(sim::Simulation& simulation, sim::TrueTime time);
+  [[gnu::noinline]] void wake_among_others(sim::Simulation& simulation);
+  void take_stored(sim::Simulation& simulation, const sim::Event& event);
   bool settle_headers(sim::Simulation& simulation);
   bool may_cut_through(sim::Simulation& simulation, const Extras::HeaderArrival& header);
   void start_first(sim::Simulation& simulation, const Selection& selection);
@@ -227,6 +233,7 @@ class alignas(64) EgressPort final : public sim::Component {
   void start_highest(sim::Simulation& simulation);
   void admit_arrivals(sim::Simulation& simulation);
   void admit(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void admit_closely(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q);
   [[gnu::noinline]] void admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason);
   void give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   // For who records the run: why what waits at the free medium may not start.
@@ -242,6 +249,12 @@ class alignas(64) EgressPort final : public sim::Component {
   void ask_again(sim::Simulation& simulation);
   TrafficClass class_of(FrameIndex frame) const {
     return config_->traffic_class_of_priority[shared_->traffic->frame(frame).queue_priority];
+  }
+  /// From the first bit of its preamble to its last bit, which must leave before its gate closes.
+  sim::Duration occupancy_until_last_bit(const Frame& record) const { return octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}); }
+  /// Of a port with nothing but gates. False: no answer.
+  bool is_in_known_window(sim::TrueTime now, TrafficClass q, const Frame& record) const {
+    return clock_->is_ideal() && only_gates_->is_in_known_window(q, clock_->local_at(now), occupancy_until_last_bit(record));
   }
   /// Preamble and gap included.
   std::int64_t octets_on_medium(FrameIndex frame) const { return wire_length(Octets{shared_->traffic->frame(frame).length}).count; }

@@ -20,23 +20,6 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
     trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, q}.pack()});
 }
 
-/// A frame comes alone to a free medium at a port that preempts and has nothing else.
-void EgressPort::pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  if (record.link_local || simulation.trace() != nullptr) [[unlikely]] {
-    start_with_extras(simulation, frame, q);
-    return;
-  }
-  MacMerge& merge = *extras_->merge;
-  if (!merge.is_preemptable(q)) {
-    link_.transmit(simulation, frame, record);
-    merge.express_started();
-    return;
-  }
-  const sim::TrueTime arrival = link_.transmit(simulation, frame, record, ArrivalArgument::preemptable);
-  merge.started({frame, q, simulation.now(), Octets{record.length}, arrival});
-}
-
 /// Of classes that share bandwidth the one whose turn it is among those that may start. What is selected for the present instant starts, and pays; for a later one the question is only
 /// whether it is worth cutting another frame.
 void EgressPort::select_by_share(sim::TrueTime now, ClassSet classes, sim::Duration delay, Selection& selection) {
@@ -147,12 +130,13 @@ bool EgressPort::settle_headers(sim::Simulation& simulation) {
   return started;
 }
 
-void EgressPort::take_stored(sim::Simulation& simulation, std::uint64_t argument) {
-  const FrameIndex frame{static_cast<std::uint32_t>(argument)};
+void EgressPort::take_stored(sim::Simulation& simulation, const sim::Event& event) {
+  TAKT_CHECK(event.kind() == stored_frame, "an event of another component");
+  const FrameIndex frame{static_cast<std::uint32_t>(event.argument)};
   if (shared_->traffic->frame(frame).bad_fcs)
     give_up(simulation, frame, DropReason::bad_fcs);
   else
-    offer(simulation, frame, static_cast<std::uint32_t>(argument >> 32));
+    offer(simulation, frame, static_cast<std::uint32_t>(event.argument >> 32));
 }
 
 bool EgressPort::may_cut_through(sim::Simulation& simulation, const Extras::HeaderArrival& header) {

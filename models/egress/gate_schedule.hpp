@@ -65,14 +65,17 @@ class GateSchedule {
   /// The first instant after `now` at which any gate changes its state.
   sim::LocalTime next_change(sim::LocalTime now);
 
-  /// True if such a frame may start since it fits into the window in which may_start() has last let one of the class start, or into the same one of the next cycle; no answer otherwise.
-  bool is_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
-    if (now >= known_.next_from) {
-      known_.from = known_.next_from;
-      known_.until = known_.until.plus_saturated(known_.cycle);
-      known_.next_from = known_.from.plus_saturated(known_.cycle);
-    }
+  /// True if such a frame may start since it fits into the window in which may_start() has last said that one of the class may; no answer otherwise.
+  bool is_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) const {
     return q == known_.traffic_class && now >= known_.from && now <= known_.until - duration;
+  }
+  /// The same of that window a cycle later, which is the one that is known from then on.
+  bool is_in_next_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+    if (now < known_.next_from) return false;
+    known_.from = known_.next_from;
+    known_.until = known_.until.plus_saturated(known_.cycle);
+    known_.next_from = known_.from.plus_saturated(known_.cycle);
+    return is_in_known_window(q, now, duration);
   }
   /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes (8.6.8.4)?
   /// Which octets are part of the duration is the caller's choice.
@@ -149,19 +152,24 @@ class GateSchedule {
           return {true, now};
         }
       } else if (window.from_ps + duration_ps <= window.until_ps) {
+        know(q, window, list.cycle_time());
         return {false, cursor_ + sim::Duration::from_ps(window.from_ps)};
       }
     }
-    for (const GateControlList::Window& window : windows)
-      if (window.from_ps + cycle_ps > at_ps && window.from_ps + duration_ps <= window.until_ps) return {false, cursor_ + sim::Duration::from_ps(window.from_ps + cycle_ps)};
+    for (const GateControlList::Window& window : windows) {
+      if (window.from_ps + cycle_ps <= at_ps || window.from_ps + duration_ps > window.until_ps) continue;
+      know(q, {window.from_ps + cycle_ps, window.until_ps + cycle_ps}, list.cycle_time());
+      return {false, cursor_ + sim::Duration::from_ps(window.from_ps + cycle_ps)};
+    }
     return {false, sim::LocalTime::never()};
   }
   void know(TrafficClass q, const GateControlList::Window& window, sim::Duration cycle) {
-    const sim::LocalTime from = cursor_ + sim::Duration::from_ps(window.from_ps);
-    if (window.from_ps > -CyclicIntervals::longest.ps())
-      known_ = {q, cycle, from, cursor_ + sim::Duration::from_ps(window.until_ps), from + cycle};
-    else
+    if (window.from_ps > -CyclicIntervals::longest.ps()) {
+      const sim::LocalTime from = cursor_.plus_saturated(sim::Duration::from_ps(window.from_ps));
+      known_ = {q, cycle, from, cursor_.plus_saturated(sim::Duration::from_ps(window.until_ps)), from.plus_saturated(cycle)};
+    } else {
       known_ = {q, cycle, sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()), sim::LocalTime::never(), sim::LocalTime::never()};   // it is always open
+    }
   }
   StartAnswer may_start_by_search(const Place& place, TrafficClass q, sim::LocalTime now, sim::Duration duration) const;
   bool holds_in(const Place& place) const;

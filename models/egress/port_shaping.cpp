@@ -11,12 +11,8 @@ PortShaping::PortShaping(const ShapingConfig& config, const LocalClock& clock, s
   const sim::DataRate rate{sim::DataRate::ps_in_8_seconds / static_cast<std::uint64_t>(octet_time.ps())};
   DeficitRoundRobin::PerClass quanta{};
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
-    if (const auto* const share = std::get_if<EnhancedTransmissionSelection>(&config.selection[q])) {
-      selection_[q] = *share;
-      quanta[q] = share->bandwidth;
-    }
-    if (const CreditBased* const shaper = config.shaper_of(q)) selection_[q] = std::make_unique<CreditBasedSelection>(*shaper, q, config.admin_gate_states, rate);
-    else if (is_timed(q)) selection_[q] = TimeBased{};
+    if (const auto* const share = std::get_if<EnhancedTransmissionSelection>(&config.selection[q])) quanta[q] = share->bandwidth;
+    if (const CreditBased* const shaper = config.shaper_of(q)) credits_[q] = std::make_unique<CreditBasedSelection>(*shaper, q, config.admin_gate_states, rate);
   }
   if (config.shared() != 0) round_ = std::make_unique<DeficitRoundRobin>(quanta);
   if (config.gates) request_gates(sim::TrueTime(), first_request(clock.local_at(sim::TrueTime()), config.gates->admin_base_time, config.gates->is_running), *config.gates);

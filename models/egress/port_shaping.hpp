@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <variant>
 #include <vector>
 
 #include "models/clock/local_clock.hpp"
@@ -46,7 +45,7 @@ class PortShaping {
   /// The same of rest_ready_time().
   Refusal gate_refusal(sim::TrueTime now, TrafficClass q);
   /// No credit has a say in this class: when its gate lets a frame pass the frame may start.
-  bool is_gated_only(TrafficClass q) const { return !std::holds_alternative<CreditPtr>(selection_[q]); }
+  bool is_gated_only(TrafficClass q) const { return credits_[q] == nullptr; }
 
   // What the credit of a class should know.
   /// A frame of the class waits, or stands at the port to be selected.
@@ -64,11 +63,12 @@ class PortShaping {
   }
   /// frame_waits() and ready_time() of a frame that comes where none of its class waits and the medium is free, and started() if that is `now`. `now` if it has started.
   sim::TrueTime start_alone(sim::TrueTime now, TrafficClass q, const Head& head);
-  /// The same where there are no gates; `local` is what the clock shows. True if the frame has started; false: start_alone() says when to ask again.
-  bool starts_alone_without_gates(sim::TrueTime now, sim::LocalTime local, TrafficClass q, std::uint32_t length, sim::LocalTime eligible) {
-    if (has_gates_ || (is_timed(q) && eligible > local)) return false;
+  /// The same for what is so most often: there are no gates, the time of the frame has come, and the credit is at rest. `local` is what the clock shows. True if it has started; false:
+  /// nothing has happened, and start_alone() follows.
+  bool starts_at_once(sim::TrueTime now, sim::LocalTime local, TrafficClass q, const Frame& frame) {
+    if (has_gates_ || (is_timed(q) && frame.marked && frame.eligible > local)) return false;
     CreditBasedSelection* const credit = credit_based(q);
-    return credit == nullptr || credit->start_alone(now, occupancy(length));
+    return credit == nullptr || credit->starts_at_rest(now, occupancy(frame.length));
   }
   /// The frame under way is cut; the medium is free at `free_at`.
   void cut(sim::TrueTime now, TrafficClass q, sim::TrueTime free_at) {
@@ -109,11 +109,6 @@ class PortShaping {
   void check_overrun(sim::TrueTime now, TrafficClass q, sim::TrueTime last_bit);
 
  private:
-  /// On the heap, so that the algorithms of all classes lie in two lines of the cache.
-  using CreditPtr = std::unique_ptr<CreditBasedSelection>;
-  /// The algorithm of a class with what it must remember.
-  using Selection = std::variant<StrictPriority, CreditPtr, TimeBased, EnhancedTransmissionSelection>;
-
   ConfigChange request_gates(sim::TrueTime now, sim::LocalTime asked, const GateConfig& gates);
   /// Its time is still to come.
   bool is_held(TrafficClass q, sim::TrueTime now, const Head& head) const { return is_timed(q) && head.eligible > clock_->local_at(now); }
@@ -121,10 +116,7 @@ class PortShaping {
   sim::TrueTime gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay);
   bool is_stuck(TrafficClass q) const { return ((forced_open_ | forced_closed_) >> q & 1u) != 0; }
   GateInForce gate_of(TrafficClass q) const { return {clock_, has_gates_, is_stuck(q)}; }
-  CreditBasedSelection* credit_based(TrafficClass q) {
-    CreditPtr* const credit = std::get_if<CreditPtr>(&selection_[q]);
-    return credit == nullptr ? nullptr : credit->get();
-  }
+  CreditBasedSelection* credit_based(TrafficClass q) { return credits_[q].get(); }
   /// Null without a shaper; its gate has been followed.
   CreditBasedShaper* credit_of(TrafficClass q, sim::TrueTime now) {
     CreditBasedSelection* const credit = credit_based(q);
@@ -141,7 +133,7 @@ class PortShaping {
   ClassSet forced_closed_ = 0;
   GateSchedule gates_;
   std::vector<std::unique_ptr<GateControlList>> lists_;  // all that were ever requested; spans point to them
-  std::array<Selection, traffic_class_count> selection_;
+  std::array<std::unique_ptr<CreditBasedSelection>, traffic_class_count> credits_;   // null: another algorithm
   std::unique_ptr<DeficitRoundRobin> round_;
   std::array<std::uint64_t, traffic_class_count> transmission_overrun_{};
 };

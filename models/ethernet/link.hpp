@@ -112,7 +112,11 @@ class Link {
 
   /// Puts a frame on the free medium. Preconditions: is_plain(); nobody cuts the frame; the frame is link-local or not folds_latency().
   void transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) { transmit(simulation, frame, record, 0); }
-  /// The same with flags for the receiver; of a frame that may be cut, too. When the receiver is told of it.
+  /// When the receiver is told of a frame that transmit() puts on the medium at that instant.
+  sim::TrueTime arrival_of(sim::TrueTime start, const Frame& record) const {
+    return start + sim::Duration::from_ps(std::int64_t{octet_time_ps_} * (preamble_and_sfd.count + record.length) + static_cast<std::int64_t>(delay_ps_));
+  }
+  /// The same with flags for the receiver; of a frame that may be cut, too. Returns arrival_of() it.
   sim::TrueTime transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint64_t flags) {
     const std::int64_t octet = octet_time_ps_;
     const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);

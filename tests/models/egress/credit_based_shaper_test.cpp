@@ -206,17 +206,19 @@ struct Stepper {
 };
 
 TEST(CreditBasedShaper, StepsAsTheRulesDo) {
-  const bool passed = rc::check("a shaper against the stepper", [] {
+  int started_at_rest = 0;
+  const bool passed = rc::check("a shaper against the stepper", [&started_at_rest] {
     const auto number = [](std::int64_t low, std::int64_t high) { return *rc::gen::inRange<std::int64_t>(low, high + 1); };
     const std::int64_t denominator = number(1, 7), rate = number(1, 20);
     const std::int64_t numerator = number(0, rate * denominator);
     CreditBasedShaper shaper({numerator, denominator}, DataRate{static_cast<std::uint64_t>(rate)});
+    const bool is_quiet = number(0, 1) == 1;   // then frames come alone
     Stepper stepper;
     stepper.idle = numerator;
     stepper.send = numerator - rate * denominator;
     for (std::int64_t ps = 0; ps < 150; ++ps) {
       const TrueTime now = TrueTime::from_ps(ps);
-      const std::int64_t action = number(0, 14);
+      const std::int64_t action = is_quiet && number(0, 39) < 39 ? 12 : number(0, 14);
       RC_LOG() << ps << ": action " << action << ", credit " << stepper.credit << '\n';
       if (action <= 3) {
         shaper.frame_enqueued(now);
@@ -242,6 +244,18 @@ TEST(CreditBasedShaper, StepsAsTheRulesDo) {
         const std::int64_t occupancy = number(1, 20);
         shaper.transmission_resumed(now, Duration::from_ps(occupancy));
         stepper.sending_for = occupancy;
+      } else if (action >= 12) {
+        const std::int64_t occupancy = number(1, 20);
+        if (stepper.queue_empty && shaper.starts_at_rest(now, Duration::from_ps(occupancy))) {
+          RC_ASSERT(stepper.may_start() && stepper.credit == 0);
+          stepper.sending_for = occupancy;
+          ++started_at_rest;
+        } else if (stepper.may_start()) {
+          shaper.frame_enqueued(now);
+          shaper.transmission_started(now, Duration::from_ps(occupancy), true);
+          stepper.sending_for = occupancy;
+          stepper.queue_empty = true;
+        }
       }
       RC_ASSERT(shaper.credit(now).units == stepper.credit);
       RC_ASSERT(shaper.may_start(now) == stepper.may_start());
@@ -256,6 +270,20 @@ TEST(CreditBasedShaper, StepsAsTheRulesDo) {
     }
   });
   EXPECT_TRUE(passed);
+  EXPECT_GT(started_at_rest, 10);
+}
+
+// 1000 octets at 1 Gb/s with an idle slope of 600 Mb/s: a debt of 400 Mb/s for 8 us, which 600 Mb/s pay in 5333.3 ns. What is known beforehand is at most 1/256 of 8 us more.
+TEST(CreditBasedShaper, RestIsKnownInTime) {
+  CreditBasedShaper shaper({600'000'000, 1}, 1_Gbps);
+  shaper.frame_enqueued(at(0_us));
+  EXPECT_FALSE(shaper.starts_at_rest(at(0_us), 8_us));   // something waits
+  shaper.transmission_started(at(0_us), 8_us, true);
+  EXPECT_FALSE(shaper.starts_at_rest(at(13'333_ns), 8_us));
+  EXPECT_TRUE(shaper.starts_at_rest(at(13'365_ns), 8_us));
+  EXPECT_EQ(shaper.credit(at(13'365_ns)).units, 0);
+  EXPECT_FALSE(shaper.starts_at_rest(at(26'698_ns), 8_us));
+  EXPECT_EQ(shaper.eligible_time(at(26'698_ns)), at(26'699_ns) - Duration::from_ps(666));   // 13,365 + 13,333.334 ns
 }
 
 }  // namespace

@@ -35,9 +35,20 @@ inline void Bridge::pass_on(sim::Simulation& simulation, const sim::Event& event
     pass_on_among_others(simulation, event, arrival, port);
 }
 
-/// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other, so its plain ports need not wait for the end of the instant, when
-/// they have long left the cache.
+/// Something else happens at this instant, but seldom does more come to the bridge: then a plain port need not wait for its end, when it has long left the cache.
 void Bridge::pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port) {
+  if (port == FilteringDatabase::not_at_once || port == arrival.port || holds_)
+    gather(simulation, event, arrival, port);
+  else if (EgressPort& egress = ports_[port]; routes_ == nullptr || !egress.decides_by_itself() || !simulation.events_follow_targets())
+    egress.offer_last(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+  else if (simulation.another_follows(event))
+    gather(simulation, event, arrival, port);
+  else
+    egress.take_alone(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+}
+
+/// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other.
+void Bridge::gather(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port) {
   if (port == FilteringDatabase::not_at_once || port == arrival.port) {
     forward(simulation, arrival.frame, arrival.port, nullptr);
   } else if (EgressPort& egress = ports_[port]; routes_ == nullptr || !egress.decides_by_itself() || !simulation.events_follow_targets()) {
@@ -72,22 +83,41 @@ void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
     handle_seldom(simulation, event, arrival);
 }
 
-/// The way of nearly every frame through a bridge with a chain: nothing else comes at this instant, so nothing can come before it.
+/// The way of nearly every frame through a bridge with a chain: nothing else comes at this instant, so nothing can come before it, and the frame stays as it is.
 void Bridge::police_alone(sim::Simulation& simulation, ArrivalArgument arrival) {
+  Frame& frame = traffic_->frame(arrival.frame);
+  const bool is_uncertain = arrival.flags != 0 && !ports_[arrival.port].incoming().surely_delivers();
+  if (is_uncertain || frame.bad_fcs || frame.link_local || (frame.marked && frame.references != 1)) [[unlikely]] {
+    police_alone_exactly(simulation, arrival);
+    return;
+  }
+  if (frame.marked) unmark(frame);
+  if (!chain_->passes_as_it_is(frame, arrival.port, simulation.now() - forwarding_delay_)) [[unlikely]] {
+    police_alone_exactly(simulation, arrival);
+    return;
+  }
+  const std::uint32_t port = port_for(frame);
+  if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]]
+    ports_[port].take_only(simulation, arrival.frame, frame, arrival.port);
+  else
+    forward(simulation, arrival.frame, arrival.port, nullptr);
+}
+
+void Bridge::police_alone_exactly(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   if (arrival.flags != 0 && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return;
-  Frame* record = &traffic_->frame(frame);
-  if (record->bad_fcs || record->link_local) [[unlikely]] {
+  Frame& record = traffic_->frame(frame);
+  if (record.bad_fcs || record.link_local) [[unlikely]] {
     take_in(simulation, frame, arrival.port, nullptr);
     return;
   }
-  if (record->marked) frame = unmarked(frame, *record);
+  if (record.marked) frame = unmarked(frame, record);
   const std::span<const FrameIndex> passed = chain_->pass(simulation, {frame, arrival.port, simulation.now() - forwarding_delay_});
   if (passed.size() == 1) [[likely]] {
-    if (passed.front() != frame || frame != arrival.frame) [[unlikely]] record = &traffic_->frame(passed.front());
-    const std::uint32_t port = port_for(*record);
+    Frame& going_on = traffic_->frame(passed.front());
+    const std::uint32_t port = port_for(going_on);
     if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]] {
-      ports_[port].take_only(simulation, passed.front(), *record, arrival.port);
+      ports_[port].take_only(simulation, passed.front(), going_on, arrival.port);
       return;
     }
   }
@@ -111,6 +141,13 @@ void Bridge::leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16
 }
 
 void Bridge::receive_preemptable(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+  if (ports_[arrival.port].incoming().surely_delivers()) [[likely]]
+    pass_on(simulation, event, arrival);
+  else
+    receive_perhaps_cut(simulation, event, arrival);
+}
+
+void Bridge::receive_perhaps_cut(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
   if (ports_[arrival.port].incoming().receive(simulation, arrival.frame, arrival.flags))
     pass_on(simulation, event, arrival);
   else
@@ -184,6 +221,15 @@ void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameInde
   }
   TAKT_CHECK(header == nullptr, "a bridge with jitter cuts nothing through");
   if (!frames.empty()) simulation.schedule(source_, jitter_->enter(from, simulation.now(), frames), sim::Phase::arrival, id_, leaves_now, ArrivalArgument::pack(frames[0], from));
+}
+
+void Bridge::send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender) {
+  const Frame& record = traffic_->frame(frame);
+  const std::uint32_t port = filtering_database_.port_at_once(record.vlan, record.destination);
+  if (port < port_count_ && !record.link_local && !untags_) [[likely]]
+    ports_[port].offer(simulation, frame, rank_of_own(sender));
+  else
+    forward(simulation, frame, rank_of_own(sender), nullptr);
 }
 
 void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header) {

@@ -67,7 +67,7 @@ class alignas(64) Bridge final : public sim::Component {
   }
 
   /// A frame of the node itself, at the present instant: it leaves by the ports of its filtering entry, without a forwarding delay.
-  void send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender) { forward(simulation, frame, rank_of_own(sender), nullptr); }
+  void send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender);
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   /// What the chain does to frames of one instant depends on their order: it sees them by port number.
@@ -90,21 +90,28 @@ class alignas(64) Bridge final : public sim::Component {
   std::uint32_t port_for(Frame& frame);
   [[gnu::noinline]] std::uint32_t look_up(Frame& frame);
   [[gnu::noinline]] void pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
+  [[gnu::noinline]] void gather(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
   void release_if_last(sim::Simulation& simulation, const sim::Event& event);
   [[gnu::noinline]] void handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
   [[gnu::noinline]] void receive_preemptable(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_perhaps_cut(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
   [[gnu::noinline]] void police_alone(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void police_alone_exactly(sim::Simulation& simulation, ArrivalArgument arrival);
+  /// Precondition: the record is not shared.
+  static void unmark(Frame& frame) {
+    frame.marked = false;
+    frame.queue_priority = frame.priority;
+  }
   /// The frame without what an earlier node has marked.
   FrameIndex unmarked(FrameIndex index, Frame& frame) {
     if (frame.references != 1) [[unlikely]] {
       const FrameIndex own = traffic_->own(index, id_);
       return unmarked(own, traffic_->frame(own));
     }
-    frame.marked = false;
-    frame.queue_priority = frame.priority;
+    unmark(frame);
     return index;
   }
   void find_whether_it_only_polices() { only_polices_ = chain_ != nullptr && jitter_ == nullptr && !untags_ && !tells_arrivals_; }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "sim/check.hpp"
@@ -35,17 +36,20 @@ class AtsScheduler {
   /// ProcessFrame (8.6.11.3): the eligibility time of a frame whose last bit came at `arrival`, or nothing if it is to be
   /// discarded, which changes nothing but the group's count. `length` counts what the configuration counts, media
   /// overhead included if it is to be shaped too. Not before `arrival`, not before the group's last eligibility time.
-  std::optional<sim::LocalTime> process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) { return passes_at_once(length, arrival, group) ? arrival : process_late(length, arrival, group); }
-  /// The same in two halves. True: neither group nor bucket keeps the frame, which is eligible at `arrival`; false: nothing has happened, process_late() follows.
-  bool passes_at_once(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
-    const FineTime fine_arrival = fine(arrival);
-    if (arrival < group.group_eligibility_time || bucket_empty_time_ + length_recovery(length) > fine_arrival) return false;
+  std::optional<sim::LocalTime> process(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
+    return passes_full(length, arrival, group) || passes_at_once(length, arrival, group) ? arrival : process_late(length, arrival, group);
+  }
+  // The same in three parts, of which the next one follows where one says false; then nothing has happened.
+  /// True: the frame is eligible at `arrival`, since the bucket has surely been filled after the frame before, as it is most often.
+  bool passes_full(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
+    if ((arrival - last_).ps() < filling_ps_ || arrival < group.group_eligibility_time || length.count > most_full_) return false;
     group.group_eligibility_time = arrival;
-    // A full bucket takes no more.
-    if (const FineTime empty_if_full = fine_arrival - empty_to_full_; bucket_empty_time_ < empty_if_full) bucket_empty_time_ = empty_if_full;
-    bucket_empty_time_ += length_recovery(length);
+    bucket_empty_time_ = fine(arrival) - empty_to_full_ + length_recovery(length);
+    note_filling(length, arrival);
     return true;
   }
+  /// True: neither group nor bucket keeps the frame, which is eligible at `arrival`.
+  bool passes_at_once(sim::Octets length, sim::LocalTime arrival, AtsGroup& group);
   std::optional<sim::LocalTime> process_late(sim::Octets length, sim::LocalTime arrival, AtsGroup& group);
 
   sim::DataRate committed_information_rate() const { return {static_cast<std::uint64_t>(rate_)}; }
@@ -61,6 +65,18 @@ class AtsScheduler {
   static FineTime length_recovery(sim::Octets length) { return units_in_a_bit * 8 * length.count; }
   FineTime fine(sim::LocalTime time) const { return static_cast<FineTime>(time.ps()) * rate_; }
 
+  static constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::uint64_t most_full_octets = 1u << 20;   // 8 * 10^12 ps times so many is below 2^63 ps
+  /// The bucket was full when a frame took its tokens.
+  void note_filling(sim::Octets length, sim::LocalTime arrival) {
+    last_ = arrival;
+    filling_ps_ = octet_ps_ * length.count;
+  }
+
+  std::int64_t filling_ps_ = 0;   // so long after last_ the bucket is full; or unknown
+  sim::LocalTime last_;
+  std::int64_t octet_ps_ = 0;     // in which it gets the tokens of an octet, rounded up
+  std::uint32_t most_full_;       // a full bucket has tokens for a frame of so many octets
   FineTime bucket_empty_time_;
   FineTime empty_to_full_;  // EmptyToFullDuration: committed burst size / committed information rate
   std::int64_t rate_;       // b/s

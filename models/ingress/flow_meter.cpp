@@ -8,11 +8,30 @@ FlowMeter::FlowMeter(const FlowMeterConfig& config)
   constexpr std::uint64_t greatest = 1'000'000'000'000;  // keeps rate * 2^63 ps below 2^127
   TAKT_CHECK(config.committed_information_rate.bits_per_second <= greatest, "a meter's CIR is at most 1 Tb/s");
   TAKT_CHECK(config.excess_information_rate.bits_per_second <= greatest, "a meter's EIR is at most 1 Tb/s");
+  const std::uint64_t rate = config.committed_information_rate.bits_per_second;
+  if (rate == 0) return;
+  octet_ps_ = static_cast<std::int64_t>((8'000'000'000'000 + rate - 1) / rate);
+  most_full_ = std::min(config.committed_burst_size.count, most_full_octets);
+}
+
+bool FlowMeter::finds_enough(sim::Octets length, sim::LocalTime arrival) {
+  if (!is_simple_) return false;
+  const sim::Duration elapsed = std::max(arrival - last_, sim::Duration());
+  Tokens left = committed_tokens_ + brought_by(config_.committed_information_rate, elapsed);
+  const bool is_full = left >= committed_burst_;
+  if (is_full) left = committed_burst_;
+  left -= tokens(length);
+  if (left < 0) return false;
+  committed_tokens_ = left;
+  last_ = arrival;
+  filling_ps_ = is_full && length.count <= most_full_ ? octet_ps_ * length.count : unknown;
+  return true;
 }
 
 FlowMeter::Verdict FlowMeter::meter_exactly(sim::Octets length, bool drop_eligible, sim::LocalTime arrival) {
   fill(std::max(arrival - last_, sim::Duration()));
   last_ = arrival;
+  filling_ps_ = unknown;
   if (mark_all_frames_red_) return {FrameColor::red, false, drop_eligible};
 
   const bool arrived_green = config_.color_mode == ColorMode::color_blind || !drop_eligible;

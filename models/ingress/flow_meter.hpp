@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "sim/check.hpp"
 #include "sim/time.hpp"
@@ -53,17 +54,16 @@ class FlowMeter {
     return meter_exactly(length, drop_eligible, arrival);
   }
   /// meter() of a meter with committed tokens alone: true if the frame gets some, and goes on as it is. False: nothing has happened.
-  bool is_surely_green(sim::Octets length, sim::LocalTime arrival) {
-    if (!is_simple_) return false;
-    const sim::Duration elapsed = std::max(arrival - last_, sim::Duration());
-    Tokens left = committed_tokens_ + brought_by(config_.committed_information_rate, elapsed);
-    if (left > committed_burst_) left = committed_burst_;
-    left -= tokens(length);
-    if (left < 0) return false;
-    committed_tokens_ = left;
+  bool is_surely_green(sim::Octets length, sim::LocalTime arrival) { return finds_full(length, arrival) || finds_enough(length, arrival); }
+  // The same in two halves: the bucket has surely been filled since the frame before, as it is most often; or not.
+  bool finds_full(sim::Octets length, sim::LocalTime arrival) {
+    if ((arrival - last_).ps() < filling_ps_ || length.count > most_full_) return false;
+    committed_tokens_ = committed_burst_ - tokens(length);
     last_ = arrival;
+    filling_ps_ = octet_ps_ * length.count;
     return true;
   }
+  bool finds_enough(sim::Octets length, sim::LocalTime arrival);
 
   /// MarkAllFramesRed: set by the meter if enabled, cleared by management.
   bool mark_all_frames_red() const { return mark_all_frames_red_; }
@@ -92,6 +92,11 @@ class FlowMeter {
   Tokens committed_tokens_;
   Tokens excess_tokens_;
   sim::LocalTime last_;
+  static constexpr std::uint32_t most_full_octets = 1u << 20;   // 8 * 10^12 ps times so many is below 2^63 ps
+  static constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
+  std::int64_t filling_ps_ = unknown;   // so long after last_ the bucket of a simple meter is full
+  std::int64_t octet_ps_ = 0;           // in which it gets the tokens of an octet, rounded up
+  std::uint32_t most_full_ = 0;         // a full bucket has tokens for a frame of so many octets; 0 if it gets none
   bool is_simple_ = false;   // colours do not matter, there are no excess tokens, nothing closes it
   bool mark_all_frames_red_ = false;
   FlowMeterConfig config_;

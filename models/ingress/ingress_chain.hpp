@@ -28,6 +28,8 @@ class IngressChain {
   /// and eligible are set together with `marked`. The frame comes unmarked, with queue_priority == priority.
   /// The span lives until the next call.
   virtual std::span<const FrameIndex> pass(sim::Simulation& simulation, Ingress ingress) = 0;
+  /// The short way of most frames. True: the frame has passed in the record that it has, in which it may have been marked. False: nothing has happened, and pass() follows.
+  virtual bool passes_as_it_is(Frame& frame, std::uint16_t port, sim::TrueTime on_wire) = 0;
 };
 
 }  // namespace takt::models

@@ -46,6 +46,7 @@ class IngressPipeline final : public IngressChain {
   IngressPipeline& operator=(const IngressPipeline&) = delete;
 
   std::span<const FrameIndex> pass(sim::Simulation& simulation, Ingress ingress) override;
+  bool passes_as_it_is(Frame& frame, std::uint16_t port, sim::TrueTime on_wire) override;
 
   struct Meter {
     NamedFlowMeterConfig config;
@@ -92,7 +93,6 @@ class IngressPipeline final : public IngressChain {
   struct Functions {
     std::uint32_t recovery = none;
     std::uint32_t split = none;
-    bool is_policed_only = false;            ///< neither, and it is a stream
     std::array<std::uint32_t, 8> filter_of_priority{};   ///< the first that matches
   };
 
@@ -106,12 +106,18 @@ class IngressPipeline final : public IngressChain {
     Scheduler* scheduler = nullptr;
   };
 
-  bool passes_at_once(Frame& frame, const Instances& instances, Ingress ingress);
+  /// Of the frames of a stream that is neither recovered nor split, by priority: the filter that leads to a meter or a scheduler alone; null: another one, or none.
+  using Alone = std::array<const Instances*, 8>;
+
+  [[gnu::noinline]] static bool finds_enough(const Instances& instances, Frame& frame, sim::LocalTime arrival, AtsGroup* group);
+  static void mark_eligible(Frame& frame, sim::LocalTime arrival);
   [[gnu::noinline]] std::span<const FrameIndex> pass_exactly(sim::Simulation& simulation, Ingress ingress);
   bool police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions);
   bool discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
   std::optional<sim::LocalTime> shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival);
   AtsGroup& group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port);
+  /// Null if it has not been asked for yet.
+  AtsGroup* known_group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port);
   void make_groups_of(std::uint16_t port);
   static Octets length_for(const Scheduler& scheduler, const Frame& frame);
   static Octets msdu_of(const Frame& frame);
@@ -130,6 +136,7 @@ class IngressPipeline final : public IngressChain {
   std::vector<Scheduler> schedulers_;
   std::vector<AtsGroup> groups_;
   std::vector<Instances> instances_;        // by filter
+  std::vector<Alone> alone_;                // by stream handle
   std::vector<AtsGroup> port_groups_;       // by reception port and traffic class
   std::uint32_t ports_with_groups_ = 0;
   std::vector<Split> splits_;

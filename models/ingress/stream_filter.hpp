@@ -43,7 +43,7 @@ struct StreamFilterCounters {
 /// One filter. The caller asks it in the order of the standard: accept, then the gate, then the meter.
 class StreamFilter {
  public:
-  explicit StreamFilter(const StreamFilterConfig& config) : config_(config) {}
+  explicit StreamFilter(const StreamFilterConfig& config) : config_(config) { find_limit(); }
 
   bool matches(StreamHandle handle, Priority priority) const {
     return (!config_.stream_handle || *config_.stream_handle == handle) && (!config_.priority || *config_.priority == priority);
@@ -54,19 +54,18 @@ class StreamFilter {
   bool accept(Octets msdu) {
     ++counters_.matching_frames;
     const bool oversize = config_.maximum_sdu_size.count != 0 && msdu > config_.maximum_sdu_size;
-    if (oversize && config_.stream_blocked_due_to_oversize_frame_enable) blocked_ = true;
+    if (oversize && config_.stream_blocked_due_to_oversize_frame_enable) {
+      blocked_ = true;
+      find_limit();
+    }
     const bool accepted = !oversize && !blocked_;
     ++(accepted ? counters_.passing_sdu : counters_.not_passing_sdu);
     return accepted;
   }
   /// accept() would say true.
-  bool surely_accepts(Octets msdu) const { return !blocked_ && (config_.maximum_sdu_size.count == 0 || msdu <= config_.maximum_sdu_size); }
+  bool surely_accepts(Octets msdu) const { return msdu.count < accepted_below_; }
   /// accept() has said true, and so has the stream gate.
-  void count_passed() {
-    ++counters_.matching_frames;
-    ++counters_.passing_sdu;
-    ++counters_.passing_frames;
-  }
+  void count_passed() { ++passed_; }
   /// What the stream gate said of an accepted frame.
   void count_gate(bool passed) { ++(passed ? counters_.passing_frames : counters_.not_passing_frames); }
   /// The flow meter has discarded a frame that passed the gate.
@@ -74,15 +73,31 @@ class StreamFilter {
 
   /// StreamBlockedDueToOversizeFrame: latched by accept if enabled, cleared by management.
   bool stream_blocked_due_to_oversize_frame() const { return blocked_; }
-  void clear_stream_blocked_due_to_oversize_frame() { blocked_ = false; }
+  void clear_stream_blocked_due_to_oversize_frame() {
+    blocked_ = false;
+    find_limit();
+  }
 
   const StreamFilterConfig& config() const { return config_; }
-  const StreamFilterCounters& counters() const { return counters_; }
+  StreamFilterCounters counters() const {
+    StreamFilterCounters counters = counters_;
+    counters.matching_frames += passed_;
+    counters.passing_sdu += passed_;
+    counters.passing_frames += passed_;
+    return counters;
+  }
 
  private:
+  void find_limit() {
+    const std::uint32_t most = config_.maximum_sdu_size.count;
+    accepted_below_ = blocked_ ? 0 : most == 0 || most == 0xFFFF'FFFF ? 0xFFFF'FFFF : most + 1;
+  }
+
+  std::uint64_t passed_ = 0;          // by count_passed(); the others are in counters_
+  std::uint32_t accepted_below_ = 0;  // MSDUs of fewer octets pass
+  bool blocked_ = false;
   StreamFilterConfig config_;
   StreamFilterCounters counters_;
-  bool blocked_ = false;
 };
 
 /// The filters of a node in the order of their instance identifiers; the first that matches is the frame's. A frame that none

@@ -31,6 +31,13 @@ class StreamTable {
     return identify_among_others(frame, at);
   }
 
+  /// The same where all entries go by the address; null: identify() knows better, or nothing matches.
+  const Found* find_by_address(const Frame& frame) const {
+    std::uint32_t at = others_.empty() ? first_of(frame.destination) : end;
+    while (at != end && !matches(by_address_[at], frame)) at = by_address_[at].next;
+    return at == end ? nullptr : &by_address_[at].found;
+  }
+
  private:
   static constexpr std::uint32_t end = 0xFFFF'FFFF;
   struct ByAddress {

@@ -109,13 +109,6 @@ FrameIndex Traffic::separate(FrameIndex index, sim::ComponentId where) {
   return made;
 }
 
-void Traffic::set_tags(FrameIndex index, bool tagged, bool r_tagged) {
-  Frame& frame = frames_[index];
-  frame.tagged = tagged;
-  frame.r_tagged = r_tagged;
-  frame.length = static_cast<std::uint16_t>(frame_length(Octets{frame.msdu}, tagged, r_tagged).count);
-}
-
 void Traffic::drop(FrameIndex index, DropReason reason, sim::ComponentId where, sim::Simulation& simulation) {
   const Frame& frame = frames_[index];
   ++streams_[frame.stream.value].dropped[static_cast<std::size_t>(reason)];

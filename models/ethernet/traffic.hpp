@@ -8,6 +8,7 @@
 
 #include "models/ethernet/delivery_book.hpp"
 #include "models/ethernet/frame_pool.hpp"
+#include "models/ethernet/sizes.hpp"
 #include "sim/histogram.hpp"
 #include "sim/simulation.hpp"
 
@@ -177,7 +178,12 @@ class Traffic {
     return separate(index, where);
   }
   /// Puts tags on or takes them off. Precondition: the record is not shared.
-  void set_tags(FrameIndex index, bool tagged, bool r_tagged);
+  void set_tags(FrameIndex index, bool tagged, bool r_tagged) {
+    Frame& frame = frames_[index];
+    frame.tagged = tagged;
+    frame.r_tagged = r_tagged;
+    frame.length = static_cast<std::uint16_t>(frame_length(Octets{frame.msdu}, tagged, r_tagged).count);
+  }
 
   /// The frame was produced at this instant.
   void count_production(const Frame& frame, sim::Simulation& simulation) const {

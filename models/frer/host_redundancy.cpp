@@ -5,9 +5,23 @@
 namespace takt::models {
 namespace {
 
+constexpr std::size_t few_streams = 4;   // to go through them is faster than to search
+
 template <class Entries>
 auto place_of(Entries& entries, StreamIndex stream) {
   return std::lower_bound(entries.begin(), entries.end(), stream, [](const auto& entry, StreamIndex s) { return entry.stream < s; });
+}
+
+/// The entry of the stream, or null.
+template <class Entries>
+auto* entry_of(Entries& entries, StreamIndex stream) {
+  if (entries.size() <= few_streams) [[likely]] {
+    for (auto& entry : entries)
+      if (entry.stream == stream) return &entry;
+    return static_cast<decltype(entries.data())>(nullptr);
+  }
+  const auto at = place_of(entries, stream);
+  return at != entries.end() && at->stream == stream ? &*at : nullptr;
 }
 
 }  // namespace
@@ -19,13 +33,13 @@ void TalkerRedundancy::add(StreamIndex stream, const StreamSplitConfig& config, 
 }
 
 StreamSplit* TalkerRedundancy::find(StreamIndex stream) {
-  const auto at = place_of(streams_, stream);
-  return at != streams_.end() && at->stream == stream ? &at->split : nullptr;
+  Entry* const entry = entry_of(streams_, stream);
+  return entry == nullptr ? nullptr : &entry->split;
 }
 
 std::span<const TalkerRedundancy::Outgoing> TalkerRedundancy::send(Traffic& traffic, FrameIndex frame) {
   StreamSplit* const split = find(traffic.frame(frame).stream);
-  TAKT_CHECK(split != nullptr, "only frames of streams that are split here");
+  if (split == nullptr) return {};
   const std::span<const FrameIndex> frames = split->split(traffic, frame);
   for (std::size_t i = 0; i < frames.size(); ++i) outgoing_[i] = {frames[i], split->config().members[i].port};
   return {outgoing_.data(), frames.size()};
@@ -37,8 +51,8 @@ void ListenerRedundancy::add(StreamIndex stream, const StreamRecoveryConfig& con
 }
 
 StreamRecovery* ListenerRedundancy::find(StreamIndex stream) {
-  const auto at = place_of(streams_, stream);
-  return at != streams_.end() && at->stream == stream ? &at->recovery : nullptr;
+  Entry* const entry = entry_of(streams_, stream);
+  return entry == nullptr ? nullptr : &entry->recovery;
 }
 
 std::optional<FrameIndex> ListenerRedundancy::receive(Traffic& traffic, FrameIndex index, std::uint16_t port, sim::LocalTime now) {

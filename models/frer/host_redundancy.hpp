@@ -25,8 +25,7 @@ class TalkerRedundancy {
   void add(StreamIndex stream, const StreamSplitConfig& config, sim::ComponentId where = {});
   bool is_empty() const { return streams_.empty(); }
 
-  /// The frames that the host sends instead of this one, and through which of its ports. Precondition: its stream is split here. The span lives
-  /// until the next call.
+  /// The frames that the host sends instead of this one, and through which of its ports; none if its stream is not split here. The span lives until the next call.
   std::span<const Outgoing> send(Traffic& traffic, FrameIndex frame);
 
   /// Null if the stream is not split here.

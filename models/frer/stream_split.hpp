@@ -30,6 +30,7 @@ class StreamSplit {
     std::size_t last = config_.members.size();
     while (last-- > 0 && is_left_out(last, except)) {}
     TAKT_CHECK(last < config_.members.size(), "a stream is split into members that leave by other ports than it came by");
+    if (original.references == 1) tag(traffic, frame, number);   // once for all members
     std::size_t made = 0;
     for (std::size_t i = 0; i <= last; ++i) {
       if (is_left_out(i, except)) continue;
@@ -57,6 +58,10 @@ class StreamSplit {
     frame.on_route = false;
     frame.destination = member.destination;
     frame.vlan = member.vlan;
+    if (!frame.r_tagged) tag(traffic, index, number);
+  }
+  static void tag(Traffic& traffic, FrameIndex index, SequenceNumber number) {
+    Frame& frame = traffic.frame(index);
     frame.r_tag_sequence = number;
     traffic.set_tags(index, frame.tagged, true);
   }

@@ -1,6 +1,7 @@
 #include "models/host/host.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim/insertion_sort.hpp"
 
@@ -65,6 +66,17 @@ inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, Arri
 }
 
 void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
+  if (has_several_ways_ && kind != deliver_now && arrival.flags == 0 && up_ && !tells_arrivals_ && !arrives_for_recorder_) {
+    const Frame& frame = traffic_->frame(arrival.frame);
+    if (!frame.bad_fcs && !frame.link_local) [[likely]] {   // nothing is to be looked at
+      gather(simulation, {arrival.frame, arrival.port});
+      return;
+    }
+  }
+  receive_closely(simulation, kind, arrival);
+}
+
+void Host::receive_closely(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
   if (kind != deliver_now) {
     if (arrives_for_recorder_ && !traffic_->frame(arrival.frame).link_local) simulation.uncount_event();
     const std::optional<FrameIndex> frame = look_closer(simulation, arrival);
@@ -137,7 +149,11 @@ void Host::gather(sim::Simulation& simulation, const Arrived& arrived) {
 }
 
 void Host::settle(sim::Simulation& simulation) {
-  sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
+  const auto comes_before = [](const Arrived& a, const Arrived& b) { return a.port < b.port; };
+  if (arrived_.size() > 2) [[unlikely]]
+    sim::insertion_sort(arrived_, comes_before);
+  else if (comes_before(arrived_.back(), arrived_.front()))   // two copies, as most often
+    std::swap(arrived_.front(), arrived_.back());
   for (const Arrived& arrived : arrived_)
     if (const std::optional<FrameIndex> frame = recover(simulation, arrived.frame, arrived.port))
       simulation.schedule(source_, through(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(*frame, arrived.port));

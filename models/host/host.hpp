@@ -85,6 +85,7 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   void gather(sim::Simulation& simulation, const Arrived& arrived);
   void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_closely(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   void note_delivery(sim::Simulation& simulation, FrameIndex frame);
   void deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame);
   const Listener* listener_of(StreamIndex stream) const;

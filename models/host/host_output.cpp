@@ -9,14 +9,15 @@ void HostOutput::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
     return;
   }
   if (!ats_.is_empty()) ats_.shape(record, local_now);   // before the members part: what is shaped is the stream, once
-  if (redundancy_.is_empty() || redundancy_.find(record.stream) == nullptr) {
+  const std::span<const TalkerRedundancy::Outgoing> members = redundancy_.is_empty() ? std::span<const TalkerRedundancy::Outgoing>() : redundancy_.send(*traffic_, frame);
+  if (members.empty()) {
     if (bridge_ != nullptr)
       bridge_->send(simulation, frame, rank);
     else
       port().offer(simulation, frame, rank);
     return;
   }
-  for (const TalkerRedundancy::Outgoing& outgoing : redundancy_.send(*traffic_, frame)) {
+  for (const TalkerRedundancy::Outgoing& outgoing : members) {
     TAKT_CHECK(outgoing.port < ports_.size(), "a member stream leaves by an interface that exists");
     if (bridge_ != nullptr)
       bridge_->send(simulation, outgoing.frame, rank);   // members have entries of their own

@@ -140,6 +140,49 @@ TEST(HostRedundancy, ATalkerSplitsItsStreamsOverItsInterfaces) {
   EXPECT_EQ(bench.traffic.stream(bench.index).copies, 1u);
 }
 
+// Another copy of the frame, which shares its record, stays as it is.
+TEST(HostRedundancy, MembersOfASharedFrameAreRecordsOfTheirOwn) {
+  Bench bench;
+  StreamSplit split({{{member_a, 0, 0}, {member_b, 0, 1}}});
+  const FrameIndex shared = bench.traffic.produce(bench.index, Octets{100}, sim::TrueTime());
+  bench.traffic.copy(shared);
+  const auto members = split.split(bench.traffic, shared);
+  ASSERT_EQ(members.size(), 2u);
+  for (const FrameIndex member : members) {
+    EXPECT_NE(member, shared);
+    EXPECT_TRUE(bench.traffic.frame(member).r_tagged);
+    EXPECT_EQ(bench.traffic.frame(member).r_tag_sequence, 0);
+    EXPECT_EQ(bench.traffic.frame(member).length, 14 + 6 + 100 + 4);
+  }
+  EXPECT_FALSE(bench.traffic.frame(shared).r_tagged);
+  EXPECT_EQ(bench.traffic.frame(shared).length, 14 + 100 + 4);
+  EXPECT_EQ(bench.traffic.frame(shared).destination, compound);
+}
+
+// Few streams are gone through, many searched.
+TEST(HostRedundancy, FindsItsStreamAmongFewAndMany) {
+  Bench bench;
+  TalkerRedundancy talker;
+  ListenerRedundancy listener;
+  std::vector<StreamIndex> added;
+  for (int i = 0; i < 12; ++i) {
+    const StreamIndex stream = bench.traffic.add_stream(Stream{});
+    EXPECT_TRUE(talker.send(bench.traffic, bench.traffic.produce(stream, Octets{100}, sim::TrueTime())).empty());   // not split here
+    EXPECT_EQ(talker.find(stream), nullptr);
+    EXPECT_EQ(listener.find(stream), nullptr);
+    if (i % 3 == 2) continue;
+    talker.add(stream, {{{AddressIndex{100 + stream.value}, 0, 0}}});
+    listener.add(stream, recovery_config());
+    added.push_back(stream);
+    for (const StreamIndex one : added) {
+      ASSERT_NE(talker.find(one), nullptr);
+      EXPECT_EQ(talker.find(one)->config().members[0].destination.value, 100 + one.value);
+      EXPECT_NE(listener.find(one), nullptr);
+      EXPECT_EQ(talker.send(bench.traffic, bench.traffic.produce(one, Octets{100}, sim::TrueTime())).size(), 1u);
+    }
+  }
+}
+
 TEST(HostRedundancy, AListenerTakesEachNumberOnce) {
   Bench bench;
   ListenerRedundancy listener;

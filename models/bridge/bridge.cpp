@@ -32,19 +32,19 @@ inline void Bridge::pass_on(sim::Simulation& simulation, const sim::Event& event
   if (port != FilteringDatabase::not_at_once && port != arrival.port && simulation.instant_is_surely_complete() && !holds_) [[likely]]
     ports_[port].offer_last(simulation, arrival.frame, frame, arrival.port);
   else
-    pass_on_among_others(simulation, event, arrival, port);
+    pass_on_among_others(simulation, event, arrival, port, frame);
 }
 
 /// Something else happens at this instant, but seldom does more come to the bridge: then a plain port need not wait for its end, when it has long left the cache.
-void Bridge::pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port) {
+void Bridge::pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port, const Frame& frame) {
   if (port == FilteringDatabase::not_at_once || port == arrival.port || holds_)
     gather(simulation, event, arrival, port);
   else if (EgressPort& egress = ports_[port]; routes_ == nullptr || !egress.decides_by_itself() || !simulation.events_follow_targets())
-    egress.offer_last(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+    egress.offer_last(simulation, arrival.frame, frame, arrival.port);
   else if (simulation.another_follows(event))
     gather(simulation, event, arrival, port);
   else
-    egress.take_alone(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+    egress.take_alone(simulation, arrival.frame, frame, arrival.port);
 }
 
 /// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other.

@@ -89,7 +89,7 @@ class alignas(64) Bridge final : public sim::Component {
   void pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   std::uint32_t port_for(Frame& frame);
   [[gnu::noinline]] std::uint32_t look_up(Frame& frame);
-  [[gnu::noinline]] void pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
+  [[gnu::noinline]] void pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port, const Frame& frame);
   [[gnu::noinline]] void gather(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
   void release_if_last(sim::Simulation& simulation, const sim::Event& event);
   [[gnu::noinline]] void handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);

@@ -12,26 +12,25 @@ AtsScheduler::AtsScheduler(sim::DataRate committed_information_rate, std::uint64
   TAKT_CHECK(committed_information_rate.bits_per_second <= 1'000'000'000'000, "an ATS scheduler has at most 1 Tb/s");
   TAKT_CHECK(committed_burst_size_bits <= std::uint64_t{1} << 56, "a committed burst size is at most 2^56 bits");
   empty_to_full_ = units_in_a_bit * static_cast<FineTime>(committed_burst_size_bits);
-  bucket_empty_time_ = fine(start) - empty_to_full_;
   octet_ps_ = static_cast<std::int64_t>((8'000'000'000'000 + committed_information_rate.bits_per_second - 1) / committed_information_rate.bits_per_second);
 }
 
 bool AtsScheduler::passes_at_once(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
-  const FineTime fine_arrival = fine(arrival);
-  if (arrival < group.group_eligibility_time || bucket_empty_time_ + length_recovery(length) > fine_arrival) return false;
+  const FineTime fine_arrival = fine(arrival), empty = empty_time();
+  if (arrival < group.group_eligibility_time || empty + length_recovery(length) > fine_arrival) return false;
   group.group_eligibility_time = arrival;
-  filling_ps_ = unknown;
   // A full bucket takes no more.
-  if (const FineTime empty_if_full = fine_arrival - empty_to_full_; bucket_empty_time_ <= empty_if_full) {
-    bucket_empty_time_ = empty_if_full;
-    if (length.count <= most_full_) note_filling(length, arrival);
-  }
-  bucket_empty_time_ += length_recovery(length);
+  const FineTime empty_if_full = fine_arrival - empty_to_full_;
+  if (empty <= empty_if_full && length.count <= most_full_)
+    note_full(length, arrival);
+  else
+    set_empty_time(std::max(empty, empty_if_full) + length_recovery(length));
   return true;
 }
 
 std::optional<sim::LocalTime> AtsScheduler::process_late(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
-  const FineTime scheduler_eligibility = bucket_empty_time_ + length_recovery(length);
+  const FineTime empty = empty_time();
+  const FineTime scheduler_eligibility = empty + length_recovery(length);
   const sim::LocalTime not_before = std::max(arrival, group.group_eligibility_time);
   FineTime eligibility = fine(not_before);
   FineTime eligibility_ps = not_before.ps();
@@ -46,15 +45,15 @@ std::optional<sim::LocalTime> AtsScheduler::process_late(sim::Octets length, sim
     ++group.discarded_frames;
     return std::nullopt;
   }
-  filling_ps_ = unknown;
   group.group_eligibility_time = sim::LocalTime::from_ps(static_cast<std::int64_t>(eligibility_ps));
-  bucket_empty_time_ = std::max(bucket_empty_time_, eligibility - empty_to_full_) + length_recovery(length);
+  set_empty_time(std::max(empty, eligibility - empty_to_full_) + length_recovery(length));
   return group.group_eligibility_time;
 }
 
 sim::LocalTime AtsScheduler::bucket_empty_time() const {
-  const FineTime quotient = bucket_empty_time_ / rate_;
-  const FineTime floor = quotient - (quotient * rate_ > bucket_empty_time_ ? 1 : 0);
+  const FineTime empty = empty_time();
+  const FineTime quotient = empty / rate_;
+  const FineTime floor = quotient - (quotient * rate_ > empty ? 1 : 0);
   return sim::LocalTime::from_ps(static_cast<std::int64_t>(floor));
 }
 

@@ -44,8 +44,7 @@ class AtsScheduler {
   bool passes_full(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {
     if ((arrival - last_).ps() < filling_ps_ || arrival < group.group_eligibility_time || length.count > most_full_) return false;
     group.group_eligibility_time = arrival;
-    bucket_empty_time_ = fine(arrival) - empty_to_full_ + length_recovery(length);
-    note_filling(length, arrival);
+    note_full(length, arrival);
     return true;
   }
   /// True: neither group nor bucket keeps the frame, which is eligible at `arrival`.
@@ -68,16 +67,24 @@ class AtsScheduler {
   static constexpr std::int64_t unknown = std::numeric_limits<std::int64_t>::max();
   static constexpr std::uint64_t most_full_octets = 1u << 20;   // 8 * 10^12 ps times so many is below 2^63 ps
   /// The bucket was full when a frame took its tokens.
-  void note_filling(sim::Octets length, sim::LocalTime arrival) {
+  void note_full(sim::Octets length, sim::LocalTime arrival) {
     last_ = arrival;
+    last_length_ = length.count;
     filling_ps_ = octet_ps_ * length.count;
   }
+  /// BucketEmptyTime, which is worked out where it is asked for if the bucket was full.
+  FineTime empty_time() const { return filling_ps_ == unknown ? bucket_empty_time_ : fine(last_) - empty_to_full_ + length_recovery({last_length_}); }
+  void set_empty_time(FineTime time) {
+    filling_ps_ = unknown;
+    bucket_empty_time_ = time;
+  }
 
-  std::int64_t filling_ps_ = 0;   // so long after last_ the bucket is full; or unknown
+  std::int64_t filling_ps_ = 0;   // so long after last_, when a frame of last_length_ octets found it full, the bucket is full again; or unknown
   sim::LocalTime last_;
+  std::uint32_t last_length_ = 0;
   std::int64_t octet_ps_ = 0;     // in which it gets the tokens of an octet, rounded up
   std::uint32_t most_full_;       // a full bucket has tokens for a frame of so many octets
-  FineTime bucket_empty_time_;
+  FineTime bucket_empty_time_ = 0;   // if filling_ps_ is unknown
   FineTime empty_to_full_;  // EmptyToFullDuration: committed burst size / committed information rate
   std::int64_t rate_;       // b/s
 };

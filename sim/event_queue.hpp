@@ -120,7 +120,7 @@ class NearEvents {
   std::uint32_t sorted_count() const { return count_; }
   std::size_t size() const { return count_ + batch_.size() + heap_.size(); }
 
-  /// The event that will be popped after `ahead` others, if that is known without work.
+  /// The event that will be popped after `ahead` others, if that is known without work. Behind it in memory are those that are popped before.
   const Event* upcoming(std::uint32_t ahead) const { return ahead < count_ ? &sorted_[count_ - 1 - ahead] : nullptr; }
   /// The first event, or null.
   const Event* first() {
@@ -219,7 +219,7 @@ class EventQueue {
     return event != nullptr && event->time == now ? event : nullptr;
   }
 
-  /// The event that will probably be popped after `ahead` others, or null. A hint: a push may come in between.
+  /// The event that will probably be popped after `ahead` others, or null; that after `ahead` - 1 is behind it, and so on. A hint: a push may come in between.
   const Event* upcoming(std::uint32_t ahead) const { return near_.upcoming(ahead); }
 
   void push(const Event& event) {

@@ -62,9 +62,20 @@ bool Simulation::run(TrueTime until, std::uint64_t max_events) {
 
 /// Three steps: the component itself, then what it will need, then what only that leads to.
 inline void Simulation::look_ahead() const {
-  if (const Event* const event = queue_.upcoming(7)) __builtin_prefetch(components_[event->target().index]);
-  if (const Event* const event = queue_.upcoming(4)) components_[event->target().index]->prefetch(*event, Component::Ahead::two_events);
-  if (const Event* const event = queue_.upcoming(2)) components_[event->target().index]->prefetch(*event, Component::Ahead::one_event);
+  constexpr std::uint32_t far = 7;
+  constexpr std::uint32_t nearer = 4;
+  constexpr std::uint32_t nearest = 2;
+  Component* const* const components = components_.data();
+  if (const Event* const event = queue_.upcoming(far)) [[likely]] {
+    __builtin_prefetch(components[event->target().index]);
+    const Event& second = event[far - nearer];
+    const Event& third = event[far - nearest];
+    components[second.target().index]->prefetch(second, Component::Ahead::two_events);
+    components[third.target().index]->prefetch(third, Component::Ahead::one_event);
+    return;
+  }
+  if (const Event* const event = queue_.upcoming(nearer)) components[event->target().index]->prefetch(*event, Component::Ahead::two_events);
+  if (const Event* const event = queue_.upcoming(nearest)) components[event->target().index]->prefetch(*event, Component::Ahead::one_event);
 }
 
 template <bool is_shuffled, bool looks_ahead>

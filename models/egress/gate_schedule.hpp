@@ -73,8 +73,8 @@ class GateSchedule {
   bool is_in_next_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
     if (now < known_.next_from) return false;
     known_.from = known_.next_from;
-    known_.until = known_.until.plus_saturated(known_.cycle);
-    known_.next_from = known_.from.plus_saturated(known_.cycle);
+    known_.until = moved(known_.until, known_.cycle.ps());
+    known_.next_from = moved(known_.from, known_.cycle.ps());
     return is_in_known_window(q, now, duration);
   }
   /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes (8.6.8.4)?
@@ -163,10 +163,15 @@ class GateSchedule {
     }
     return {false, sim::LocalTime::never()};
   }
+  /// Windows may begin in the cycle before, and times before 0; never() beyond the last instant.
+  static sim::LocalTime moved(sim::LocalTime time, std::int64_t ps) {
+    std::int64_t sum = 0;
+    return __builtin_add_overflow(time.ps(), ps, &sum) ? sim::LocalTime::never() : sim::LocalTime::from_ps(sum);
+  }
   void know(TrafficClass q, const GateControlList::Window& window, sim::Duration cycle) {
     if (window.from_ps > -CyclicIntervals::longest.ps()) {
-      const sim::LocalTime from = cursor_.plus_saturated(sim::Duration::from_ps(window.from_ps));
-      known_ = {q, cycle, from, cursor_.plus_saturated(sim::Duration::from_ps(window.until_ps)), from.plus_saturated(cycle)};
+      const sim::LocalTime from = moved(cursor_, window.from_ps);
+      known_ = {q, cycle, from, moved(cursor_, window.until_ps), moved(from, cycle.ps())};
     } else {
       known_ = {q, cycle, sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()), sim::LocalTime::never(), sim::LocalTime::never()};   // it is always open
     }

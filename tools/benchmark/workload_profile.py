@@ -4,7 +4,8 @@ import re
 import subprocess
 import tempfile
 
-# Arguments of takt_bench for a short and for a longer run: what is counted is the difference, so that set-up drops out.
+# Arguments of takt_bench for a short and for a longer run: what is counted is the difference, so that what is done once drops out. Only the event loop is counted: set-up of a plant
+# differs from run to run by more than a run takes.
 WORKLOADS = {
     "plant": (["plant", "32", "spread", "0.0005"], ["plant", "32", "spread", "0.0025"]),
     "plant-at-once": (["plant", "32", "at-once", "0.0005"], ["plant", "32", "at-once", "0.0025"]),
@@ -18,6 +19,7 @@ WORKLOADS = {
     "line-frer": (["line-frer", "0.1"], ["line-frer", "0.5"]),
     "pair": (["pair", "0.05"], ["pair", "0.25"]),
 }
+LOOP = "takt::sim::Simulation::run*"
 # valgrind's names: reads of instructions, reads and writes of data, and misses of the first and the last cache; branches and those that were guessed wrong.
 EVENTS = {"Ir": "instructions", "Dr": "data reads", "Dw": "data writes", "D1mr": "read misses, first cache", "D1mw": "write misses, first cache", "DLmr": "read misses, last cache",
           "DLmw": "write misses, last cache", "Bc": "conditional branches", "Bcm": "guessed wrong"}
@@ -31,7 +33,7 @@ def figures_of(text):
 
 
 def counted(program, arguments, out):
-    done = subprocess.run(["valgrind", "--tool=callgrind", "--cache-sim=yes", "--branch-sim=yes", f"--callgrind-out-file={out}", program, *arguments], capture_output=True, text=True)
+    done = subprocess.run(["valgrind", "--tool=callgrind", "--cache-sim=yes", "--branch-sim=yes", f"--toggle-collect={LOOP}", f"--callgrind-out-file={out}", program, *arguments], capture_output=True, text=True)
     names = re.search(r"Events\s*: (.*)", done.stderr)
     values = re.search(r"Collected : (.*)", done.stderr)
     if done.returncode != 0 or not names or not values:

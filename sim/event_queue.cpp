@@ -252,9 +252,10 @@ void EventQueue::spread(int widest) {
   const std::int64_t start = all.front().time.ps();
   const std::int64_t spacing = (all[near].time.ps() - start) / static_cast<std::int64_t>(near + 1);
   const int width = std::clamp(std::min(widest, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(2 * spacing)))), narrowest_log2, widest_log2);
-  // Narrower buckets reach as far as those before did.
-  const std::size_t as_far = widest == widest_log2 ? 0 : buckets_.size() << (width_log2_ - width);
-  const std::size_t bucket_count = std::clamp<std::size_t>(std::max(std::bit_ceil(2 * all.size()), as_far), 1024, std::size_t{1} << (as_far > 0 ? 17 : 20));
+  // Narrower buckets reach as far as those before did, if that does not take too many: twice as many as there are events do in any case.
+  constexpr std::size_t most_to_reach = std::size_t{1} << 17;
+  const std::size_t as_far = widest == widest_log2 ? 0 : std::min(buckets_.size() << (width_log2_ - width), most_to_reach);
+  const std::size_t bucket_count = std::clamp<std::size_t>(std::max(std::bit_ceil(2 * all.size()), as_far), 1024, std::size_t{1} << 20);
   width_log2_ = width;
   buckets_.assign(bucket_count, none);
   occupied_.assign(bucket_count / 64, 0);

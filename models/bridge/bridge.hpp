@@ -21,7 +21,7 @@ namespace takt::models {
 class alignas(64) Bridge final : public sim::Component {
  public:
   Bridge(Traffic& traffic, std::span<EgressPort> ports, sim::Duration forwarding_delay)
-      : traffic_(&traffic), ports_(ports.data()), port_count_(ports.size()), forwarding_delay_(forwarding_delay) {}
+      : traffic_(&traffic), ports_(ports.data()), port_count_(static_cast<std::uint32_t>(ports.size())), forwarding_delay_(forwarding_delay) {}
 
   void set_id(sim::ComponentId id) {
     id_ = id;
@@ -131,8 +131,8 @@ class alignas(64) Bridge final : public sim::Component {
   bool holds_ = false;                    // held_ is not empty
   std::uint32_t first_port_ = 0;
   Routes* routes_ = nullptr;              // null in stations and hosts
+  std::uint32_t port_count_;
   FilteringDatabase filtering_database_;
-  std::size_t port_count_;
   std::vector<EgressPort*> held_;         // to which frames have come at this instant, and more may
   IngressChain* chain_ = nullptr;
   LinkLocalReceiver* link_local_ = nullptr;

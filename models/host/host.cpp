@@ -14,11 +14,11 @@ constexpr std::size_t few_listeners = 4;  // to go through them is faster than t
 Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path,
            std::span<EgressPort> ports, const LocalClock& clock, bool has_several_ways, bool has_stack_thread)
     : traffic_(&traffic),
-      source_(simulation.add(*this)),
-      node_(node),
       receives_at_once_(latency.receive.is_constant() && !has_several_ways && !has_stack_thread),
       looks_closer_(has_several_ways),
       has_several_ways_(has_several_ways),
+      source_(simulation.add(*this)),
+      node_(node),
       receive_(latency.receive, simulation.seed(), path, "os receive"),
       ports_(ports),
       clock_(&clock),
@@ -162,10 +162,12 @@ void Host::settle(sim::Simulation& simulation) {
 
 void Host::prefetch(const sim::Event& event, Ahead ahead) const {
   const StreamIndex stream = traffic_->frame(ArrivalArgument::unpack(event.argument).frame).stream;
-  if (ahead == Ahead::two_events)
-    traffic_->prefetch_account(stream);
-  else
+  if (ahead == Ahead::two_events) {
+    traffic_->prefetch_delivery(stream);
+    __builtin_prefetch(listeners_.data());
+  } else {
     traffic_->prefetch_latency(stream);
+  }
 }
 
 void Host::deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame) {

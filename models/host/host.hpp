@@ -14,7 +14,7 @@
 
 namespace takt::models {
 
-class Host final : public sim::Component, public InternalReceiver, public CpuUser {
+class alignas(64) Host final : public sim::Component, public InternalReceiver, public CpuUser {
  public:
   /// `ports` are its network interfaces. Frames that come by several ways, by several interfaces or through the bridge of a station, may come
   /// at one instant: the receive latency begins when the instant is complete, in the order of the ports, and lies in no event's time before. The latter also holds
@@ -90,15 +90,19 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   void deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame);
   const Listener* listener_of(StreamIndex stream) const;
 
+  // What a frame touches that is delivered at once: one cache line.
   Traffic* traffic_;
-  std::vector<Listener> listeners_;  // ascending streams
-  sim::EventSource source_;
-  NodeIndex node_;
   bool receives_at_once_;            // a fixed latency lies in the events' times already
   bool looks_closer_ = false;
   bool up_ = true;
   bool keeps_book_ = false;
   bool has_several_ways_;
+  bool tells_arrivals_ = false;
+  bool arrives_for_recorder_ = false;
+  std::vector<Listener> listeners_;  // ascending streams
+  // The rest.
+  sim::EventSource source_;
+  NodeIndex node_;
   LatencyLine receive_;
   std::span<EgressPort> ports_;
   const LocalClock* clock_;
@@ -108,8 +112,6 @@ class Host final : public sim::Component, public InternalReceiver, public CpuUse
   std::vector<Arrived> arrived_;     // at this instant, by several ways
   Cpu* cpu_ = nullptr;               // null: what comes takes no time of a processor
   std::uint32_t stack_thread_ = 0;
-  bool tells_arrivals_ = false;
-  bool arrives_for_recorder_ = false;
 };
 
 }  // namespace takt::models

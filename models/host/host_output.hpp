@@ -12,7 +12,7 @@
 namespace takt::models {
 
 /// Most hosts have one interface and send each frame as it is: those who send check is_plain() and use port() themselves.
-class HostOutput {
+class alignas(64) HostOutput {
  public:
   HostOutput(Traffic& traffic, std::span<EgressPort> ports) : traffic_(&traffic), ports_(ports) {
     TAKT_CHECK(!ports.empty(), "a host that sends has a link");

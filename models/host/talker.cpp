@@ -29,14 +29,15 @@ Talker::Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output
                std::string_view path, StreamIndex stream, Octets payload, TalkerSchedule schedule)
     : traffic_(&traffic),
       output_(&output),
-      clock_(&clock),
       source_(simulation.add(*this)),
       stream_(stream),
       payload_(payload),
+      has_table_(std::holds_alternative<TraceSchedule>(schedule)),
+      clock_(&clock),
       schedule_(std::move(schedule)),
       own_transmit_(latency.transmit, simulation.seed(), path, "os transmit"),
-      transmits_at_once_(own_transmit_.is_none()),
       chance_(simulation.seed(), path, "schedule") {
+  transmits_at_once_ = own_transmit_.is_none();
   const auto* const periodic = std::get_if<PeriodicSchedule>(&schedule_);
   if (periodic != nullptr && periodic->jitter == sim::Duration()) fixed_step_ = periodic->period;
 }
@@ -79,9 +80,16 @@ sim::TrueTime Talker::ask_clock() {
   return clock_->true_at(last_);
 }
 
+/// Which frame it is nobody asks where they come at equal distances.
+inline void Talker::go_on(sim::Simulation& simulation) {
+  if (!steps_.is_set()) ++count_;
+  has_begun_ = true;
+  schedule_next(simulation);
+}
+
 inline void Talker::schedule_next(sim::Simulation& simulation) {
   const bool follows = steps_.is_set();
-  const sim::LocalTime time = follows || (count_ > 0 && fixed_step_ > sim::Duration()) ? last_.plus_saturated(fixed_step_) : time_of_next();
+  const sim::LocalTime time = follows || (has_begun_ && fixed_step_ > sim::Duration()) ? last_.plus_saturated(fixed_step_) : time_of_next();
   is_over_ = time >= until_;
   if (is_over_) return;
   last_ = time;
@@ -103,7 +111,8 @@ void Talker::start(sim::Simulation& simulation) {
                           while (count_ < s.entries.size() && s.entries[count_].time < begin) ++count_;
                         }},
              schedule_);
-  if (count_ > 0 && fixed_step_ > sim::Duration()) last_ = instant(std::get<PeriodicSchedule>(schedule_).offset, fixed_step_, static_cast<std::int64_t>(count_) - 1);
+  has_begun_ = count_ > 0;
+  if (has_begun_ && fixed_step_ > sim::Duration()) last_ = instant(std::get<PeriodicSchedule>(schedule_).offset, fixed_step_, static_cast<std::int64_t>(count_) - 1);
   schedule_next(simulation);
 }
 
@@ -116,9 +125,13 @@ void Talker::clock_changed(sim::Simulation& simulation) {
 }
 
 void Talker::prefetch(const sim::Event&, Ahead ahead) const {
-  if (ahead == Ahead::one_event) return;
-  traffic_->prefetch_account(stream_);
-  output_->port().prefetch_hot();
+  if (ahead == Ahead::one_event) {
+    output_->port().prefetch_hot();
+    return;
+  }
+  __builtin_prefetch(&steps_, 1);
+  __builtin_prefetch(output_);
+  traffic_->prefetch_sending(stream_);
 }
 
 /// What belongs to this host alone.
@@ -162,20 +175,17 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   }
   if (event.argument != generation_) return;  // the clock has changed since
   if (!output_->is_up()) [[unlikely]] {  // a host that is down produces nothing; its schedule goes on
-    ++count_;
-    schedule_next(simulation);
+    go_on(simulation);
     return;
   }
-  const auto* const trace_schedule = std::get_if<TraceSchedule>(&schedule_);
-  const Octets payload = trace_schedule != nullptr ? trace_schedule->entries[count_].payload : payload_;
+  const Octets payload = has_table_ ? std::get<TraceSchedule>(schedule_).entries[count_].payload : payload_;
   const FrameIndex frame = traffic_->produce(stream_, payload, simulation);
   if (marks_) mark(traffic_->frame(frame));
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)
     simulation.schedule(source_, shares_latency_ ? transmit_->pass_strictly(simulation.now()) : transmit_->pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
-  ++count_;
-  schedule_next(simulation);
+  go_on(simulation);
   if (transmits_at_once_) hand_over(simulation, frame);
 }
 

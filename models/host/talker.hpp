@@ -11,7 +11,7 @@
 
 namespace takt::models {
 
-class Talker final : public sim::Component, public CpuUser {
+class alignas(64) Talker final : public sim::Component, public CpuUser {
  public:
   /// Times are those of `clock`. `path` names the talker in the random streams. All references outlive the talker.
   Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock, const OsLatency& latency,
@@ -55,6 +55,8 @@ class Talker final : public sim::Component, public CpuUser {
   void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) override;
 
  private:
+  /// One more frame has been due.
+  void go_on(sim::Simulation& simulation);
   void schedule_next(sim::Simulation& simulation);
   void schedule_at(sim::Simulation& simulation, sim::TrueTime due);
   /// Where the clock does not run as it did when the frame before was due, if there was one.
@@ -65,28 +67,32 @@ class Talker final : public sim::Component, public CpuUser {
   /// The local time of frame number `count_`, or never.
   sim::LocalTime time_of_next();
 
+  // What a frame touches that comes at an equal distance: two cache lines.
   Traffic* traffic_;
   HostOutput* output_;
-  const LocalClock* clock_;
-  sim::EventSource source_;
+  [[no_unique_address]] sim::EventSource source_;
   StreamIndex stream_;
-  Octets payload_;
-  std::uint64_t count_ = 0;
-  sim::Phase phase_ = sim::Phase::timer;
-  sim::LocalTime last_;
-  EqualSteps steps_;               // of the clock, from the frame that is next on; set while fixed_step_ is
   std::uint64_t generation_ = 0;   // of the event that produces the next frame
-  bool is_over_ = false;           // there is no next frame
+  Octets payload_;
+  sim::Phase phase_ = sim::Phase::timer;
+  bool transmits_at_once_;
+  bool is_over_ : 1 = false;       // there is no next frame
+  bool marks_ : 1 = false;         // launch_ or host_priority_
+  bool has_begun_ : 1 = false;     // last_ is the time of a frame
+  bool has_table_ : 1;             // TraceSchedule
+  bool shares_latency_ : 1 = false;
+  EqualSteps steps_;               // of the clock, from the frame that is next on; set while fixed_step_ is
+  sim::Duration fixed_step_;       // from one frame to the next; 0 if they do not come at equal distances
+  sim::LocalTime last_;
   sim::LocalTime until_ = sim::LocalTime::never();
+  // The rest.
+  const LocalClock* clock_;
+  std::uint64_t count_ = 0;        // of frames that were due; not kept while steps_ is set
   std::optional<sim::Duration> launch_;
   std::optional<Priority> host_priority_;
-  bool marks_ = false;             // one of them
   TalkerSchedule schedule_;
   LatencyLine own_transmit_;
   LatencyLine* transmit_ = &own_transmit_;
-  sim::Duration fixed_step_;       // from one frame to the next; 0 if they do not come at equal distances
-  bool transmits_at_once_;
-  bool shares_latency_ = false;
   sim::RandomStream chance_;
   Cpu* cpu_ = nullptr;             // null: what is sent takes no time of a processor
   std::uint32_t stack_thread_ = 0;

@@ -13,7 +13,7 @@ namespace takt::models {
 /// an answer that is a port of its own: for frames on_route the port depends on bridge and stream alone. Otherwise it looks the port up and notes it.
 class Routes {
  public:
-  static constexpr std::size_t most_hops = 32;             ///< what goes farther is looked up there
+  static constexpr std::size_t most_hops = 64;             ///< what goes farther is looked up there
   static constexpr std::uint32_t unknown = 0xFFFF'FFFF;
 
   Routes(std::size_t streams) : ports_(streams * most_hops, unknown) {}

@@ -71,7 +71,7 @@ class Link {
   const Reception& reception() const { return reception_; }
   /// Another node receives from now on. Precondition: the link is down, and what was on it has been lost.
   void redirect(const Reception& reception);
-  sim::Duration octet_time() const { return sim::Duration::from_ps(octet_time_ps_); }
+  sim::Duration octet_time() const { return sim::Duration::from_ps(std::int64_t{octet_time_ps_}); }
   /// The sending port.
   sim::ComponentId sender() const { return source_.id(); }
 
@@ -96,9 +96,9 @@ class Link {
   /// frame starts, which saves an event; null: the receiver does it itself. Precondition: is_plain(), not checks(), and transmit_any() is not called.
   void fold_latency(LatencyLine* latency) {
     latency_ = latency;
-    folds_latency_ = latency != nullptr;
+    folds_latency_ = latency != nullptr ? 1 : 0;
   }
-  bool folds_latency() const { return folds_latency_; }
+  bool folds_latency() const { return folds_latency_ != 0; }
   /// Nothing of all that, but that the receiver may look at each frame: the link is always up, and transmit() will do.
   bool is_plain() const { return reception_.noticed_priorities == 0 && exchange_ == nullptr && !fault_; }
   /// The receiver looks at each frame.
@@ -194,11 +194,11 @@ class Link {
   std::uint64_t order_ = 0;                  // of events for the receiver (sim::Event::order_of)
   std::uint64_t delay_ps_ : 44 = 0;          // see LinkEnd::delay
   std::uint64_t every_arrival_ : 20 = 0;     // the argument of every arrival but for the frame: the port, and flags
-  std::uint64_t folds_latency_ : 1 = 0;      // latency_ is there
   sim::TrueTime free_at_;
   std::uint64_t wire_octets_sent_ = 0;
   [[no_unique_address]] sim::EventSource source_;  // of the sending port
-  std::uint32_t octet_time_ps_ = 0;
+  std::uint32_t octet_time_ps_ : 31 = 0;
+  std::uint32_t folds_latency_ : 1 = 0;      // latency_ is there
   // The rest.
   LatencyLine* latency_ = nullptr;           // see fold_latency()
   Traffic* traffic_ = nullptr;

@@ -370,11 +370,13 @@ sim::ComponentId Network::component_of(NodeIndex node) const {
   return plan_.nodes[node.value].forwards() ? bridges_[node.value]->id() : hosts_[node.value]->id();
 }
 
+Attention& Network::attention_of(NodeIndex node) const { return plan_.nodes[node.value].forwards() ? bridges_[node.value]->attention() : hosts_[node.value]->attention(); }
+
 void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {
   TAKT_CHECK(link.rate.has_exact_octet_time(), "a link's octet lasts a whole number of picoseconds");
   mutable_ports(from.node)[from.port].connect(*simulation_, shared_, port_config_of(from), clock_of(from.node),
                                               link.rate.octet_time(),
-                                              {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node), fixed_delay_of(to.node)},
+                                              {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node), fixed_delay_of(to.node), &attention_of(to.node)},
                                               mutable_ports(to.node)[to.port].link());
   if (from.gates_may_stick) mutable_ports(from.node)[from.port].expect_stuck_gates();
 }

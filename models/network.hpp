@@ -158,6 +158,7 @@ class Network final : private LinkLocalSender {
   bool chooses_ports(NodeIndex node) const;
   sim::Duration fixed_delay_of(NodeIndex node) const;
   sim::ComponentId component_of(NodeIndex node) const;
+  Attention& attention_of(NodeIndex node) const;
   HostOutput& output_of_host(NodeIndex host);
 
   sim::Simulation* simulation_;

@@ -102,6 +102,11 @@ class Simulation {
     const Event* const next = queue_.next_at(now_);
     return next != nullptr && (next->order ^ event.order) >> Event::source_bits == 0;
   }
+  /// True if no other one follows, as far as that is known without work: false also where another_follows() must be asked.
+  bool surely_none_follows(const Event& event) const {
+    const Event* const next = queue_.upcoming(0);
+    return next != nullptr && (next->time > now_ || (next->order ^ event.order) >> Event::source_bits != 0);
+  }
   /// Neither the tie shuffle nor a recorder, which is told in the order of settling, is there.
   bool events_follow_targets() const { return tie_shuffle_ == 0 && trace_ == nullptr; }
   /// Whether their state does not stay in the nearest caches.

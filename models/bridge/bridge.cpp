@@ -35,16 +35,24 @@ inline void Bridge::pass_on(sim::Simulation& simulation, const sim::Event& event
     pass_on_among_others(simulation, event, arrival, port, frame);
 }
 
-/// Something else happens at this instant, but seldom does more come to the bridge: then a plain port need not wait for its end, when it has long left the cache.
+/// Something else happens at this instant, but seldom does more come to the bridge: then a plain port need not wait for its end, when it has long left the cache. Here, too, nothing is
+/// called but what it ends with.
 void Bridge::pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port, const Frame& frame) {
-  if (port == FilteringDatabase::not_at_once || port == arrival.port || holds_)
-    gather(simulation, event, arrival, port);
+  if (port == FilteringDatabase::not_at_once || port == arrival.port || holds_) [[unlikely]]
+    pass_on_closely(simulation, event, arrival, port);
   else if (EgressPort& egress = ports_[port]; routes_ == nullptr || !egress.decides_by_itself() || !simulation.events_follow_targets())
     egress.offer_last(simulation, arrival.frame, frame, arrival.port);
-  else if (simulation.another_follows(event))
+  else if (simulation.surely_none_follows(event)) [[likely]]
+    egress.take_alone(simulation, arrival.frame, frame, arrival.port);
+  else
+    pass_on_closely(simulation, event, arrival, port);
+}
+
+void Bridge::pass_on_closely(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port) {
+  if (port == FilteringDatabase::not_at_once || port == arrival.port || holds_ || simulation.another_follows(event))
     gather(simulation, event, arrival, port);
   else
-    egress.take_alone(simulation, arrival.frame, frame, arrival.port);
+    ports_[port].take_alone(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
 }
 
 /// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other.
@@ -73,12 +81,12 @@ inline void Bridge::release_if_last(sim::Simulation& simulation, const sim::Even
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
   const bool has_arrived = event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived);
-  if (!looks_closer_ && arrival.flags == 0 && has_arrived) [[likely]]
+  if (!attention_.is_needed() && arrival.flags == 0 && has_arrived) [[likely]]
     pass_on(simulation, event, arrival);
-  else if (only_polices_ && has_arrived && (arrival.flags & ~unsigned{ArrivalArgument::check}) == 0 && simulation.instant_is_surely_complete())
+  else if (only_polices_ && has_arrived && (arrival.flags & ~unsigned{ArrivalArgument::check}) == 0 && simulation.instant_is_surely_complete() && !attention_.asks_links())
     police_alone(simulation, arrival);
-  else if (!looks_closer_ && arrival.flags == ArrivalArgument::preemptable && has_arrived)
-    receive_preemptable(simulation, event, arrival);
+  else if (!attention_.is_demanded() && arrival.flags == 0 && has_arrived)
+    receive_perhaps_cut(simulation, event, arrival);
   else
     handle_seldom(simulation, event, arrival);
 }
@@ -140,13 +148,7 @@ void Bridge::leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16
   jitter_->leave(from, [&](FrameIndex frame) { forward(simulation, frame, from, nullptr); });
 }
 
-void Bridge::receive_preemptable(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
-  if (ports_[arrival.port].incoming().surely_delivers()) [[likely]]
-    pass_on(simulation, event, arrival);
-  else
-    receive_perhaps_cut(simulation, event, arrival);
-}
-
+/// A frame was cut whose arrival has been announced to this bridge.
 void Bridge::receive_perhaps_cut(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
   if (ports_[arrival.port].incoming().receive(simulation, arrival.frame, arrival.flags))
     pass_on(simulation, event, arrival);
@@ -175,7 +177,7 @@ void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
 void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   Link& link = ports_[arrival.port].incoming();
-  if (arrival.is_uncertain() && !link.receive(simulation, frame, arrival.flags)) return;
+  if ((arrival.is_uncertain() || attention_.asks_links()) && !link.receive(simulation, frame, arrival.flags)) return;
   if (tells_arrivals_ && simulation.trace() != nullptr)
     simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value, ArrivalDetail{arrival.port, link.sender()}.pack()});
   Header header;
@@ -224,9 +226,7 @@ void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameInde
 }
 
 void Bridge::send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender) {
-  const Frame& record = traffic_->frame(frame);
-  const std::uint32_t port = filtering_database_.port_at_once(record.vlan, record.destination);
-  if (port < port_count_ && !record.link_local && !untags_) [[likely]]
+  if (const std::uint32_t port = port_of_own(traffic_->frame(frame)); port != FilteringDatabase::not_at_once) [[likely]]
     ports_[port].offer(simulation, frame, rank_of_own(sender));
   else
     forward(simulation, frame, rank_of_own(sender), nullptr);

@@ -28,12 +28,13 @@ class alignas(64) Bridge final : public sim::Component {
     source_ = sim::EventSource(id);
   }
   sim::ComponentId id() const { return id_; }
+  Attention& attention() { return attention_; }
   FilteringDatabase& filtering_database() { return filtering_database_; }
   const FilteringDatabase& filtering_database() const { return filtering_database_; }
   /// Every frame passes the chain, which outlives the bridge.
   void set_ingress_chain(IngressChain* chain) {
     chain_ = chain;
-    looks_closer_ = true;
+    attention_.demand();
     find_whether_it_only_polices();
   }
   /// What is found in the filtering database is noted there; `first_port` is the number of the bridge's first port. `routes` outlives the bridge. Not for stations.
@@ -46,19 +47,19 @@ class alignas(64) Bridge final : public sim::Component {
   /// Frames take that much longer, besides the fixed delay. Nothing is cut through then. `jitter` outlives the bridge.
   void set_jitter(ForwardingJitter* jitter) {
     jitter_ = jitter;
-    looks_closer_ = true;
+    attention_.demand();
     find_whether_it_only_polices();
   }
   /// Some port takes tags off.
   void set_untags() {
     untags_ = true;
-    looks_closer_ = true;
+    attention_.demand();
     find_whether_it_only_polices();
   }
   /// Whoever records the run is told of each frame that comes.
   void tell_arrivals() {
     tells_arrivals_ = true;
-    looks_closer_ = true;
+    attention_.demand();
     find_whether_it_only_polices();
   }
   /// The host of the station; it outlives the bridge.
@@ -68,6 +69,11 @@ class alignas(64) Bridge final : public sim::Component {
 
   /// A frame of the node itself, at the present instant: it leaves by the ports of its filtering entry, without a forwarding delay.
   void send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender);
+  /// The port by which such a frame leaves as it is, if that is one and can be said at once; FilteringDatabase::not_at_once otherwise.
+  std::uint32_t port_of_own(const Frame& frame) const {
+    const std::uint32_t port = filtering_database_.port_at_once(frame.vlan, frame.destination);
+    return port < port_count_ && !frame.link_local && !untags_ ? port : FilteringDatabase::not_at_once;
+  }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   /// What the chain does to frames of one instant depends on their order: it sees them by port number.
@@ -89,12 +95,12 @@ class alignas(64) Bridge final : public sim::Component {
   void pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   std::uint32_t port_for(Frame& frame);
   [[gnu::noinline]] std::uint32_t look_up(Frame& frame);
+  [[gnu::noinline]] void pass_on_closely(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
   [[gnu::noinline]] void pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port, const Frame& frame);
   [[gnu::noinline]] void gather(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
   void release_if_last(sim::Simulation& simulation, const sim::Event& event);
   [[gnu::noinline]] void handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
-  [[gnu::noinline]] void receive_preemptable(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_perhaps_cut(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
   void take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
@@ -126,10 +132,10 @@ class alignas(64) Bridge final : public sim::Component {
   // What every frame touches lies in the first cache line.
   Traffic* traffic_;
   EgressPort* ports_;
-  bool looks_closer_ = false;
+  Attention attention_;
+  std::uint32_t first_port_ = 0;
   bool only_polices_ = false;             // it looks closer because it has a chain, for no other reason
   bool holds_ = false;                    // held_ is not empty
-  std::uint32_t first_port_ = 0;
   Routes* routes_ = nullptr;              // null in stations and hosts
   std::uint32_t port_count_;
   FilteringDatabase filtering_database_;

@@ -31,7 +31,7 @@ void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const Port
 }
 
 void EgressPort::find_path() {
-  if (extras_ && !shaping_ && queues_.empty() && extras_->merge && !extras_->merge->rest() && link_.is_plain() && !extras_->expects_headers)
+  if (only_merges_ && queues_.empty() && !extras_->merge->rest())
     path_ = Path::merging;
   else
     path_ = !queues_.empty() || extras_ ? Path::general : !shaping_ ? Path::plain : only_gates_ != nullptr ? Path::gated : shaping_->limits_sdu() ? Path::general : Path::shaped;
@@ -42,6 +42,8 @@ void EgressPort::find_gates() {
   // gPTP hands its messages over after the arrivals of an instant, and they go before them.
   is_simple_ = !shaping_ && !extras_ && shared_ != nullptr && shared_->link_local == nullptr;
   only_gates_ = shaping_ && !extras_ && shaping_->has_only_gates() ? &shaping_->gates() : nullptr;
+  only_merges_ = extras_ && extras_->merge && !shaping_ && link_.is_plain() && !extras_->expects_headers;
+  open_until_ = {};
   find_path();
 }
 
@@ -163,7 +165,7 @@ void EgressPort::settle_waiting(sim::Simulation& simulation) {
 /// Which way is that of what has come and waits. Like those for a frame that comes alone it ends with what it calls.
 void EgressPort::settle_many(sim::Simulation& simulation) {
   if (extras_ || !more_arrivals_.empty()) [[unlikely]]
-    settle_all_classes(simulation);
+    only_merges_ && more_arrivals_.empty() ? settle_merging(simulation) : settle_all_classes(simulation);
   else if (!has_arrival_)
     is_one_class(queues_.waiting()) ? settle_waiting(simulation) : settle_all_classes(simulation);
   else if (simulation.now() < link_.free_at() && (!shaping_ || only_gates_ != nullptr))
@@ -415,7 +417,10 @@ void EgressPort::start(sim::Simulation& simulation, FrameIndex frame, const Fram
 /// The same where somebody wants to know.
 void EgressPort::start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   if (record.link_local) shared_->link_local->transmission_starts(simulation, id(), frame);
-  link_.folds_latency() && !record.link_local ? link_.transmit_folded(simulation, frame, record) : link_.transmit(simulation, frame, record);
+  if (link_.folds_latency() && !record.link_local)
+    link_.transmit_folded(simulation, frame, record);
+  else
+    link_.transmit(simulation, frame, record);
   if (sim::TraceSink* const trace = simulation.trace())
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, class_of(frame)}.pack()});
 }

@@ -79,12 +79,10 @@ class alignas(64) EgressPort final : public sim::Component {
   void decide(sim::Simulation& simulation) { settle(simulation); }
   /// Both, of the only frame of this instant.
   void take_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-    if (path_ == Path::plain && simulation.now() >= link_.free_at() && !has_arrival_) [[likely]] {
+    if (path_ == Path::plain && simulation.now() >= link_.free_at() && !has_arrival_) [[likely]]
       start(simulation, frame, record);
-      return;
-    }
-    static_cast<void>(gather(frame, rank));
-    settle(simulation);
+    else
+      gather_and_decide(simulation, frame, rank);
   }
   /// offer_last() at an instant that is complete.
   void take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
@@ -198,7 +196,13 @@ class alignas(64) EgressPort final : public sim::Component {
   [[gnu::noinline]] void pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   [[gnu::noinline]] void pass_shaping_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   [[gnu::noinline]] void pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void start_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q);
+  // Of a port that preempts and has nothing else.
+  [[gnu::noinline]] void settle_merging(sim::Simulation& simulation);
+  void wait_or_cut(sim::Simulation& simulation, FrameIndex frame);
+  void go_on_merging(sim::Simulation& simulation);
   void take_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
+  void gather_and_decide(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
   void find_path();
   void find_gates();
   void settle_later(sim::Simulation& simulation) {
@@ -252,6 +256,10 @@ class alignas(64) EgressPort final : public sim::Component {
   }
   /// From the first bit of its preamble to its last bit, which must leave before its gate closes.
   sim::Duration occupancy_until_last_bit(const Frame& record) const { return octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}); }
+  /// The same without asking the gates.
+  bool is_surely_in_known_window(sim::TrueTime now, TrafficClass q, const Frame& record) const {
+    return q == open_class_ && now + occupancy_until_last_bit(record) <= open_until_;
+  }
   /// Of a port with nothing but gates. False: no answer.
   bool is_in_known_window(sim::TrueTime now, TrafficClass q, const Frame& record) const {
     return clock_->is_ideal() && only_gates_->is_in_known_window(q, clock_->local_at(now), occupancy_until_last_bit(record));
@@ -270,6 +278,7 @@ class alignas(64) EgressPort final : public sim::Component {
   Path path_ = Path::plain;
   TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
   ClassSet ranked_ = every_class;            // those that do not share bandwidth: the most urgent one goes first
+  TrafficClass open_class_ = 0;              // see open_until_
   Link link_;
   // Touched when frames wait.
   Arrival arrival_;                          // the first of this instant
@@ -279,12 +288,14 @@ class alignas(64) EgressPort final : public sim::Component {
   const LocalClock* clock_ = nullptr;
   std::unique_ptr<PortShaping> shaping_;
   std::unique_ptr<Extras> extras_;
+  sim::TrueTime open_until_;                 // of a port with nothing but gates: open_class_ is open from now on until then; 0 if that is not known, or the clock is not ideal
   GateSchedule* only_gates_ = nullptr;       // if there is nothing but gates
   sim::TrueTime promised_ = sim::TrueTime::never();  // when the one frame that waits may start: its gate has said so
-  bool has_new_head_ = false;                // a frame at the head of a queue was dropped for one that has come
   std::uint64_t frames_dropped_ = 0;
   Link* incoming_ = nullptr;
   PortQueues queues_;
+  bool only_merges_ = false;                 // it preempts, and there is nothing else
+  bool has_new_head_ = false;                // a frame at the head of a queue was dropped for one that has come
   std::vector<Arrival> more_arrivals_;       // the others
 };
 

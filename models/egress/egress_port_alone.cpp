@@ -38,6 +38,11 @@ void EgressPort::take_among_others(sim::Simulation& simulation, FrameIndex frame
   settle_many(simulation);
 }
 
+void EgressPort::gather_and_decide(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
+  static_cast<void>(gather(frame, rank));
+  settle(simulation);
+}
+
 void EgressPort::settle(sim::Simulation& simulation) {
   settling_ = false;
   // The common case: one frame, nothing waits, the medium is free.
@@ -52,7 +57,7 @@ void EgressPort::settle(sim::Simulation& simulation) {
 /// A port that has gates and nothing else: most often in the window of the frame before it.
 void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  if (is_in_known_window(simulation.now(), q, record)) [[likely]] {
+  if (is_surely_in_known_window(simulation.now(), q, record)) [[likely]] {
     sending_ = q;
     start(simulation, frame, record);
   } else {
@@ -60,10 +65,14 @@ void EgressPort::pass_gate(sim::Simulation& simulation, FrameIndex frame, const 
   }
 }
 
-/// Or in the same window of a later cycle.
+/// Or in one that was found for a frame that waited, or in the same window of a later cycle.
 void EgressPort::pass_gate_later(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const sim::TrueTime now = simulation.now();
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  if (clock_->is_ideal() && only_gates_->is_in_next_known_window(q, clock_->local_at(simulation.now()), occupancy_until_last_bit(record))) {
+  const auto is_known = [&] { return is_in_known_window(now, q, record) || only_gates_->is_in_next_known_window(q, clock_->local_at(now), occupancy_until_last_bit(record)); };
+  if (clock_->is_ideal() && is_known()) {
+    open_class_ = q;
+    open_until_ = clock_->true_at(only_gates_->known_window_end());
     sending_ = q;
     start(simulation, frame, record);
   } else {
@@ -119,20 +128,62 @@ void EgressPort::pass_shaping_exactly(sim::Simulation& simulation, FrameIndex fr
 /// A port that preempts and has nothing else.
 void EgressPort::pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  start_merging(simulation, frame, record, q);
+}
+
+inline void EgressPort::start_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q) {
   if (record.link_local || simulation.trace() != nullptr) [[unlikely]] {
     start_with_extras(simulation, frame, q);
     return;
   }
   MacMerge& merge = *extras_->merge;
-  const sim::TrueTime now = simulation.now();
-  std::uint64_t flags = 0;
-  if (merge.is_preemptable(q)) {
-    merge.started({frame, q, now, Octets{record.length}, link_.arrival_of(now, record)});
-    flags = ArrivalArgument::preemptable;
-  } else {
+  if (merge.is_preemptable(q))
+    merge.started({frame, q, simulation.now(), Octets{record.length}, link_.arrival_of(simulation.now(), record)});
+  else
     merge.express_started();
+  link_.transmit(simulation, frame, record);
+}
+
+/// Something has come to, or waits at, a port that preempts and has nothing else: what settle_all_classes() does there.
+void EgressPort::settle_merging(sim::Simulation& simulation) {
+  const bool is_busy = simulation.now() < link_.free_at();
+  const bool has_come = has_arrival_;
+  if (has_come && !is_busy && path_ != Path::merging) {   // it is one of several that may start
+    settle_all_classes(simulation);
+    return;
   }
-  link_.transmit(simulation, frame, record, flags);
+  has_arrival_ = false;
+  if (is_busy)
+    wait_or_cut(simulation, has_come ? arrival_.frame : FrameIndex{});
+  else if (has_come)
+    pass_merging(simulation, arrival_.frame, shared_->traffic->frame(arrival_.frame));
+  else
+    go_on_merging(simulation);
+}
+
+/// The medium is busy, and a frame may have come. One that finds no room is no reason to cut another one.
+inline void EgressPort::wait_or_cut(sim::Simulation& simulation, FrameIndex frame) {
+  if (!frame.is_none()) admit(simulation, frame);
+  const MacMerge& merge = *extras_->merge;
+  if (merge.under_way() && (queues_.waiting() & ~merge.preemptable()) != 0)
+    if (const std::optional<MacMerge::Cut> earliest = merge.earliest_cut(simulation.now())) cut(simulation, *earliest);
+  find_path();
+  if (path_ == Path::general) wake_at(simulation, link_.free_at());
+}
+
+/// The medium is free: what waits goes on, express frames first, then the rest of a frame that was cut.
+inline void EgressPort::go_on_merging(sim::Simulation& simulation) {
+  const MacMerge& merge = *extras_->merge;
+  const auto express = static_cast<ClassSet>(queues_.waiting() & ~merge.preemptable());
+  if (express == 0 && merge.rest()) {
+    resume(simulation);
+  } else if (!queues_.empty()) {
+    const TrafficClass q = highest_class(express != 0 ? express : queues_.waiting());
+    const FrameIndex frame = pop(simulation, q);
+    start_merging(simulation, frame, shared_->traffic->frame(frame), q);
+  }
+  find_path();
+  if (path_ == Path::general) wake_at(simulation, link_.free_at());
 }
 
 }  // namespace takt::models

@@ -64,12 +64,12 @@ sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation) {
   const std::optional<MacMerge::Cut> earliest = merge.earliest_cut(now);
   if (!earliest) return when_to_look(now);
   const HoldRequest hold = hold_request(now);
-  sim::TrueTime next = link_.free_at();
+  sim::TrueTime next = sim::TrueTime::never();
   bool wanted = hold.hold;
   if (!wanted) {
     const Selection express = select(now, static_cast<ClassSet>(~merge.preemptable()), earliest->free_at - now);
     wanted = express.found;
-    next = std::min({next, express.ask_again, when_to_look(now)});
+    next = std::min(express.ask_again, when_to_look(now));
   }
   if (!wanted) return next;
   cut(simulation, *earliest);
@@ -224,6 +224,7 @@ void EgressPort::clock_changed(sim::Simulation& simulation) {
 
 void EgressPort::ask_again(sim::Simulation& simulation) {
   promised_ = sim::TrueTime::never();
+  open_until_ = {};
   if (extras_ && extras_->merge) extras_->merge->gates_changed();
   if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]

@@ -69,6 +69,8 @@ class GateSchedule {
   bool is_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) const {
     return q == known_.traffic_class && now >= known_.from && now <= known_.until - duration;
   }
+  /// When that window ends.
+  sim::LocalTime known_window_end() const { return known_.until; }
   /// The same of that window a cycle later, which is the one that is known from then on.
   bool is_in_next_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
     if (now < known_.next_from) return false;

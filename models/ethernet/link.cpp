@@ -38,7 +38,7 @@ void Link::transmit_folded(sim::Simulation& simulation, FrameIndex frame, const 
 }
 
 sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable) {
-  unsigned flags = checks() || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : is_preemptable ? unsigned{ArrivalArgument::preemptable} : 0u;
+  unsigned flags = checks() || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : 0u;
   Octets told_after = preamble_and_sfd + Octets{record.length};
   // A header that is as long as the frame is a frame that is stored.
   if (!is_preemptable && (reception_.noticed_priorities >> record.priority & 1) != 0 && header_notice(record) < told_after) {
@@ -53,7 +53,7 @@ sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, 
 sim::TrueTime Link::transmit_rest(sim::Simulation& simulation, FrameIndex frame, const Frame& record, Octets remaining) {
   ++other_events_;
   free_at_ = simulation.now() + octet_time() * wire_length(remaining).count;
-  return schedule_arrival(simulation, frame, preamble_and_sfd + remaining, checks() || record.marked ? ArrivalArgument::check : ArrivalArgument::preemptable);
+  return schedule_arrival(simulation, frame, preamble_and_sfd + remaining, checks() || record.marked ? unsigned{ArrivalArgument::check} : 0u);
 }
 
 sim::TrueTime Link::schedule_arrival(sim::Simulation& simulation, FrameIndex frame, Octets told_after, unsigned flags) {
@@ -67,9 +67,10 @@ sim::TrueTime Link::schedule_arrival(sim::Simulation& simulation, FrameIndex fra
   return arrival;
 }
 
-/// The event of the arrival that will not be comes all the same: the receiver asks, and the link forgets it.
+/// The event of the arrival that will not be comes all the same: the receiver asks, and the link forgets it. Who is asked about each arrival need not call for attention.
 void Link::cut(FrameIndex frame, sim::TrueTime arrival, sim::TrueTime free_at) {
   withdrawn_.push_back({arrival, frame});
+  if (!checks()) reception_.far_end.attention->arrival_withdrawn();
   free_at_ = free_at;
   wire_octets_sent_ += overhead_of_a_cut.count;
 }
@@ -78,6 +79,7 @@ bool Link::take_withdrawn(sim::TrueTime now, FrameIndex frame) {
   const auto found = std::find_if(withdrawn_.begin(), withdrawn_.end(), [&](const Withdrawn& w) { return w.time == now && w.frame == frame; });
   if (found == withdrawn_.end()) return false;
   withdrawn_.erase(found);
+  if (!checks()) reception_.far_end.attention->withdrawn_arrival_is_over();
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "models/ethernet/attention.hpp"
 #include "models/ethernet/frame_exchange.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "models/ethernet/traffic.hpp"
@@ -29,13 +30,12 @@ struct ArrivalArgument {
     check = 1,        ///< ask the link whether the frame has come (Link::receive), and look at its condition
     header_only = 2,  ///< only the header has come: the frame may be cut through
     duplicate = 4,    ///< chance on the link has made it, and has no more say
-    preemptable = 8,  ///< the frame may have been cut on its way: ask the link whether it has come
   };
   FrameIndex frame;
   std::uint16_t port = 0;
   std::uint16_t flags = 0;
   /// The link is to be asked.
-  bool is_uncertain() const { return (flags & (check | preemptable)) != 0; }
+  bool is_uncertain() const { return (flags & check) != 0; }
   static constexpr int frame_bits = 32;
   static constexpr int port_bits = 16;
   static constexpr std::uint64_t pack(FrameIndex frame, std::uint16_t port, unsigned flags = 0) {
@@ -54,6 +54,7 @@ struct LinkEnd {
   /// a bridge, fixed receive latency of a host). Folding them saves an event for each frame and hop. At most 17 s.
   sim::Duration delay;
   sim::Duration node_delay;    ///< the node's share of it
+  Attention* attention = nullptr;   ///< the node's; there if frames may be cut
 };
 
 class Link {
@@ -110,14 +111,12 @@ class Link {
   /// The last bit of the frame under way leaves, or that of the last one has left.
   sim::TrueTime last_bit() const { return free_at_ - octet_time() * inter_packet_gap.count; }
 
-  /// Puts a frame on the free medium. Preconditions: is_plain(); nobody cuts the frame; the frame is link-local or not folds_latency().
-  void transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) { transmit(simulation, frame, record, 0); }
   /// When the receiver is told of a frame that transmit() puts on the medium at that instant.
   sim::TrueTime arrival_of(sim::TrueTime start, const Frame& record) const {
     return start + sim::Duration::from_ps(std::int64_t{octet_time_ps_} * (preamble_and_sfd.count + record.length) + static_cast<std::int64_t>(delay_ps_));
   }
-  /// The same with flags for the receiver; of a frame that may be cut, too. Returns arrival_of() it.
-  sim::TrueTime transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint64_t flags) {
+  /// Puts a frame on the free medium. Preconditions: is_plain(); the frame is link-local or not folds_latency(). Returns arrival_of() it.
+  sim::TrueTime transmit(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
     const std::int64_t octet = octet_time_ps_;
     const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
     const sim::TrueTime now = simulation.now();
@@ -125,7 +124,7 @@ class Link {
     wire_octets_sent_ += wire_length(Octets{record.length}).count;
     const sim::TrueTime arrival = now + sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(delay_ps_));
     simulation.schedule(source_, arrival, order_,
-                        static_cast<sim::EventKind>(NodeEvent::frame_arrived), (static_cast<std::uint64_t>(every_arrival_) | flags << ArrivalArgument::port_bits) << ArrivalArgument::frame_bits | frame.value);
+                        static_cast<sim::EventKind>(NodeEvent::frame_arrived), static_cast<std::uint64_t>(every_arrival_) << ArrivalArgument::frame_bits | frame.value);
     return arrival;
   }
   /// The same where folds_latency(), of a frame that is not link-local.
@@ -143,7 +142,7 @@ class Link {
   }
 
   // The receiving node.
-  /// Asked at an arrival that is uncertain, at the present instant. False: the frame has not come
+  /// Asked at an arrival that is uncertain, or at each (Attention::asks_links()), at the present instant. False: the frame has not come
   /// (it was cut and comes later, or it is lost and accounted for). Chance may damage it: then the index is that of a record of
   /// its own.
   bool receive(sim::Simulation& simulation, FrameIndex& frame, std::uint16_t flags) {

@@ -59,7 +59,8 @@ std::optional<FrameIndex> ListenerRedundancy::receive(Traffic& traffic, FrameInd
   const Frame& frame = traffic.frame(index);
   StreamRecovery* const recovery = find(frame.stream);
   if (recovery == nullptr) return index;
-  return recovery->receive(traffic, index, recovery->member_of(frame.destination, frame.vlan), port, now);
+  const std::size_t member = recovery->config().individual_recovery ? recovery->member_of(frame.destination, frame.vlan) : StreamRecovery::no_member;
+  return recovery->receive(traffic, index, member, port, now);
 }
 
 }  // namespace takt::models

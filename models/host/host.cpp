@@ -15,14 +15,16 @@ Host::Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const 
            std::span<EgressPort> ports, const LocalClock& clock, bool has_several_ways, bool has_stack_thread)
     : traffic_(&traffic),
       receives_at_once_(latency.receive.is_constant() && !has_several_ways && !has_stack_thread),
-      looks_closer_(has_several_ways),
+      takes_no_time_(latency.receive.is_constant() && latency.receive.greatest() == sim::Duration() && !has_stack_thread),
       has_several_ways_(has_several_ways),
       source_(simulation.add(*this)),
       node_(node),
       receive_(latency.receive, simulation.seed(), path, "os receive"),
       ports_(ports),
       clock_(&clock),
-      fixed_receive_(receives_at_once_ ? latency.receive.greatest() : sim::Duration()) {}
+      fixed_receive_(receives_at_once_ ? latency.receive.greatest() : sim::Duration()) {
+  if (has_several_ways) attention_.demand();
+}
 
 void Host::listen(StreamIndex stream, Process* process) {
   const auto at = std::lower_bound(listeners_.begin(), listeners_.end(), stream,
@@ -46,8 +48,8 @@ const Host::Listener* Host::listener_of(StreamIndex stream) const {
 
 void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  if (looks_closer_ || (arrival.flags != 0 && is_in_doubt(arrival))) [[unlikely]]
-    receive_flagged(simulation, event.kind(), arrival);
+  if (attention_.is_needed() || (arrival.flags != 0 && is_in_doubt(arrival))) [[unlikely]]
+    receive_flagged(simulation, event, arrival);
   else
     take_in(simulation, event.kind(), arrival);
 }
@@ -60,20 +62,33 @@ inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, Arri
   if (frame.link_local && link_local_ != nullptr) [[unlikely]]
     link_local_->receive(simulation, arrival.frame, arrival.port, simulation.now() - fixed_receive_);
   else if (kind == deliver_now || receives_at_once_)
-    deliver(simulation, arrival.frame, frame);
+    deliver(simulation, arrival.frame, frame, listener_of(frame.stream));
   else
     simulation.schedule(source_, through(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
 }
 
-void Host::receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
-  if (has_several_ways_ && kind != deliver_now && arrival.flags == 0 && up_ && !tells_arrivals_ && !arrives_for_recorder_) {
-    const Frame& frame = traffic_->frame(arrival.frame);
-    if (!frame.bad_fcs && !frame.link_local) [[likely]] {   // nothing is to be looked at
-      gather(simulation, {arrival.frame, arrival.port});
-      return;
-    }
-  }
-  receive_closely(simulation, kind, arrival);
+/// When nothing more comes to the host at this instant, whatever the last event was.
+inline void Host::release_if_last(sim::Simulation& simulation, const sim::Event& event) {
+  if (!holds_ || simulation.another_follows(event)) return;
+  holds_ = false;
+  take_gathered(simulation);
+}
+
+inline void Host::receive_of_several(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+  const auto needs_no_look = [](const Frame& frame) { return !frame.bad_fcs && !frame.link_local; };
+  const bool has_come = event.kind() != deliver_now && arrival.flags == 0 && !attention_.asks_links();
+  if (has_come && up_ && !tells_arrivals_ && !arrives_for_recorder_ && needs_no_look(traffic_->frame(arrival.frame))) [[likely]]
+    gather(simulation, {arrival.frame, arrival.port});
+  else
+    receive_closely(simulation, event.kind(), arrival);
+  release_if_last(simulation, event);
+}
+
+void Host::receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+  if (has_several_ways_)
+    receive_of_several(simulation, event, arrival);
+  else
+    receive_closely(simulation, event.kind(), arrival);
 }
 
 void Host::receive_closely(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
@@ -95,8 +110,13 @@ void Host::receive_closely(sim::Simulation& simulation, sim::EventKind kind, Arr
     cpu_->submit(stack_thread_, *this, id().index, stream, ArrivalArgument::pack(arrival.frame, arrival.port), simulation.now());
     return;
   }
-  if (keeps_book_ && (kind == deliver_now || receives_at_once_)) note_delivery(simulation, arrival.frame);
-  take_in(simulation, kind, arrival);
+  const Frame& frame = traffic_->frame(arrival.frame);
+  const Listener* const listener = listener_of(frame.stream);
+  if (kind == deliver_now && has_several_ways_ && only_counts(frame, listener)) simulation.uncount_event();   // it is there for a recorder: see pass_through_system()
+  if (keeps_book_ && (kind == deliver_now || receives_at_once_) && listener != nullptr)
+    deliver_noted(simulation, arrival.frame, frame, listener);
+  else
+    take_in(simulation, kind, arrival);
 }
 
 /// The protocol stack has taken a frame in, or never will.
@@ -106,20 +126,20 @@ void Host::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending endi
     traffic_->drop(frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, id(), simulation);
     return;
   }
-  if (keeps_book_) note_delivery(simulation, frame);
-  deliver(simulation, frame, traffic_->frame(frame));
+  const Frame& record = traffic_->frame(frame);
+  deliver_noted(simulation, frame, record, listener_of(record.stream));
 }
 
-/// What deliver() will do is entered in the book.
-void Host::note_delivery(sim::Simulation& simulation, FrameIndex index) {
-  const Frame& frame = traffic_->frame(index);
-  if (listener_of(frame.stream) != nullptr) traffic_->book().deliver(frame, node_, simulation.now());
+/// The same as deliver(), and it is entered in the book where one is kept.
+void Host::deliver_noted(sim::Simulation& simulation, FrameIndex index, const Frame& frame, const Listener* listener) {
+  if (keeps_book_ && listener != nullptr) traffic_->book().deliver(frame, node_, simulation.now());
+  deliver(simulation, index, frame, listener);
 }
 
 /// A frame in a condition of its own, or a host that does more than deliver: what goes on, if anything.
 std::optional<FrameIndex> Host::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
-  if (arrival.is_uncertain() && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return std::nullopt;
+  if ((arrival.is_uncertain() || attention_.asks_links()) && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return std::nullopt;
   if (tells_arrivals_ && simulation.trace() != nullptr)
     simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id(), frame.value, ArrivalDetail{arrival.port, ports_[arrival.port].incoming().sender()}.pack()});
   if (!up_ || traffic_->frame(frame).bad_fcs) {
@@ -140,24 +160,50 @@ void Host::receive_internally(sim::Simulation& simulation, FrameIndex frame, std
   if (!up_)
     traffic_->drop(frame, DropReason::node_down, id(), simulation);
   else
-    gather(simulation, {frame, port});
+    gather_until_settled(simulation, {frame, port});
 }
 
-void Host::gather(sim::Simulation& simulation, const Arrived& arrived) {
+void Host::gather_until_settled(sim::Simulation& simulation, const Arrived& arrived) {
   if (arrived_.empty()) simulation.settle_later(*this);
   arrived_.push_back(arrived);
 }
 
-void Host::settle(sim::Simulation& simulation) {
+/// What comes by the host's own interfaces comes by its own events, one after the other.
+inline void Host::gather(sim::Simulation& simulation, const Arrived& arrived) {
+  if (!simulation.events_follow_targets()) {
+    gather_until_settled(simulation, arrived);
+    return;
+  }
+  holds_ = true;
+  arrived_.push_back(arrived);
+}
+
+void Host::settle(sim::Simulation& simulation) { take_gathered(simulation); }
+
+inline void Host::take_gathered(sim::Simulation& simulation) {
   const auto comes_before = [](const Arrived& a, const Arrived& b) { return a.port < b.port; };
   if (arrived_.size() > 2) [[unlikely]]
     sim::insertion_sort(arrived_, comes_before);
   else if (comes_before(arrived_.back(), arrived_.front()))   // two copies, as most often
     std::swap(arrived_.front(), arrived_.back());
   for (const Arrived& arrived : arrived_)
-    if (const std::optional<FrameIndex> frame = recover(simulation, arrived.frame, arrived.port))
-      simulation.schedule(source_, through(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(*frame, arrived.port));
+    if (const std::optional<FrameIndex> frame = recover(simulation, arrived.frame, arrived.port)) pass_through_system(simulation, {*frame, arrived.port});
   arrived_.clear();
+}
+
+/// Nothing happens when the frame is delivered but that it is counted, so it does not matter when in its instant that is.
+inline bool Host::only_counts(const Frame& frame, const Listener* listener) const {
+  return takes_no_time_ && !frame.link_local && (listener == nullptr || listener->process == nullptr || frame.payload.is_none());
+}
+
+/// Applications act on what they get when the instant is complete. What is only counted needs no event, but a recorder is told of it when it would be with one.
+inline void Host::pass_through_system(sim::Simulation& simulation, const Arrived& arrived) {
+  const Frame& frame = traffic_->frame(arrived.frame);
+  const Listener* const listener = listener_of(frame.stream);
+  if (simulation.trace() == nullptr && only_counts(frame, listener))
+    deliver_noted(simulation, arrived.frame, frame, listener);
+  else
+    simulation.schedule(source_, through(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrived.frame, arrived.port));
 }
 
 void Host::prefetch(const sim::Event& event, Ahead ahead) const {
@@ -170,8 +216,7 @@ void Host::prefetch(const sim::Event& event, Ahead ahead) const {
   }
 }
 
-void Host::deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame) {
-  const Listener* const listener = listener_of(frame.stream);
+void Host::deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame, const Listener* listener) {
   if (listener == nullptr) {
     traffic_->drop(index, DropReason::no_filtering_entry, id(), simulation);
     return;

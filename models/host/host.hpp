@@ -29,18 +29,18 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   /// The host takes copies of the stream that come more than once out (IEEE 802.1CB).
   void recover(StreamIndex stream, const StreamRecoveryConfig& config) {
     redundancy_.add(stream, config, id());
-    looks_closer_ = true;
+    attention_.demand();
   }
   /// Deliveries here are entered in Traffic::book() as well.
   void keep_book() {
     keeps_book_ = true;
-    looks_closer_ = true;
+    attention_.demand();
   }
   /// The thread of the host's processor on which each frame that comes is a job of the protocol stack.
   void take_in_on(Cpu& cpu, std::uint32_t thread) {
     cpu_ = &cpu;
     stack_thread_ = thread;
-    looks_closer_ = true;
+    attention_.demand();
   }
   /// Takes the link-local frames.
   void set_link_local_receiver(LinkLocalReceiver* receiver) { link_local_ = receiver; }
@@ -48,16 +48,16 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   /// Whoever records the run is told of each frame that comes.
   void tell_arrivals() {
     tells_arrivals_ = true;
-    looks_closer_ = true;
+    attention_.demand();
   }
   /// The latency of each frame that comes, for the only link by which frames come, to be drawn there; null if more happens when a frame comes.
-  LatencyLine* drawn_latency() { return receives_at_once_ || looks_closer_ || has_several_ways_ || cpu_ != nullptr ? nullptr : &receive_; }
+  LatencyLine* drawn_latency() { return receives_at_once_ || attention_.is_needed() || has_several_ways_ || cpu_ != nullptr ? nullptr : &receive_; }
   /// But for who records the run it would be drawn there: arrivals are events for the recorder only.
   void arrive_for_recorder() { arrives_for_recorder_ = true; }
   /// A host that is down takes no frames.
   void set_up(bool up) {
     up_ = up;
-    looks_closer_ = true;
+    attention_.demand();
   }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
@@ -66,6 +66,7 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) override;
   void prefetch(const sim::Event& event, Ahead ahead) const override;
   sim::ComponentId id() const { return source_.id(); }
+  Attention& attention() { return attention_; }
 
  private:
   struct Listener {
@@ -82,18 +83,25 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   std::optional<FrameIndex> recover(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port);
   /// When what comes now is through the operating system. Jobs of a thread come one by one, so that their order is theirs.
   sim::TrueTime through(sim::TrueTime now) { return cpu_ != nullptr ? receive_.pass_strictly(now) : receive_.pass(now); }
+  void gather_until_settled(sim::Simulation& simulation, const Arrived& arrived);
   void gather(sim::Simulation& simulation, const Arrived& arrived);
+  void take_gathered(sim::Simulation& simulation);
+  void release_if_last(sim::Simulation& simulation, const sim::Event& event);
+  void pass_through_system(sim::Simulation& simulation, const Arrived& arrived);
+  bool only_counts(const Frame& frame, const Listener* listener) const;
   void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
-  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
+  void receive_of_several(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_closely(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
-  void note_delivery(sim::Simulation& simulation, FrameIndex frame);
-  void deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame);
+  void deliver_noted(sim::Simulation& simulation, FrameIndex index, const Frame& frame, const Listener* listener);
+  void deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame, const Listener* listener);
   const Listener* listener_of(StreamIndex stream) const;
 
   // What a frame touches that is delivered at once: one cache line.
   Traffic* traffic_;
   bool receives_at_once_;            // a fixed latency lies in the events' times already
-  bool looks_closer_ = false;
+  bool takes_no_time_;               // nor does any latency pass in its operating system
+  Attention attention_;
   bool up_ = true;
   bool keeps_book_ = false;
   bool has_several_ways_;
@@ -110,6 +118,7 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   sim::Duration fixed_receive_;      // that latency
   ListenerRedundancy redundancy_;
   std::vector<Arrived> arrived_;     // at this instant, by several ways
+  bool holds_ = false;               // they are taken when the last event of this instant for this host is there, not when all is settled
   Cpu* cpu_ = nullptr;               // null: what comes takes no time of a processor
   std::uint32_t stack_thread_ = 0;
 };

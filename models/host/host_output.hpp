@@ -21,6 +21,9 @@ class alignas(64) HostOutput {
   bool is_plain() const { return plain_; }
   EgressPort& port() const { return ports_[0]; }
 
+  /// The same as offer() as the last act of an event handler: spares the settling if nothing else happens at this instant.
+  void offer_last(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now);
+
   /// Hands a frame to the interfaces that it leaves by, at the present instant. A frame with a launch time that has passed by
   /// `local_now` is dropped, as is every frame of a host that is down.
   void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now);
@@ -47,6 +50,15 @@ class alignas(64) HostOutput {
   bool is_up() const { return up_; }
 
  private:
+  static constexpr std::size_t most_apart = 8;
+  bool takes(sim::Simulation& simulation, FrameIndex frame, sim::LocalTime local_now);
+  std::span<const TalkerRedundancy::Outgoing> members_of(FrameIndex frame) {
+    return redundancy_.is_empty() ? std::span<const TalkerRedundancy::Outgoing>() : redundancy_.send(*traffic_, frame);
+  }
+  void hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
+  void hand_over(sim::Simulation& simulation, std::span<const TalkerRedundancy::Outgoing> members, std::uint32_t rank);
+  bool hand_over_apart(sim::Simulation& simulation, std::span<const TalkerRedundancy::Outgoing> members, std::uint32_t rank);
+
   Traffic* traffic_;
   std::span<EgressPort> ports_;
   Bridge* bridge_ = nullptr;

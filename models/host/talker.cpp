@@ -141,24 +141,27 @@ void Talker::mark(Frame& frame) const {
   if (host_priority_) frame.queue_priority = *host_priority_;
 }
 
-void Talker::hand_over_with_care(sim::Simulation& simulation, FrameIndex frame) {
+void Talker::hand_over_with_care(sim::Simulation& simulation, FrameIndex frame, bool is_last) {
   const sim::LocalTime now = clock_->local_at(simulation.now());
   if (host_priority_ && !launch_) traffic_->frame(frame).eligible = now;   // where others have launch times it is due at once
-  output_->offer(simulation, frame, source_.id().index, now);
+  if (is_last)
+    output_->offer_last(simulation, frame, source_.id().index, now);
+  else
+    output_->offer(simulation, frame, source_.id().index, now);
 }
 
 inline void Talker::hand_over(sim::Simulation& simulation, FrameIndex frame) {
   if (output_->is_plain()) [[likely]]
     output_->port().offer_last(simulation, frame, traffic_->frame(frame), source_.id().index);
   else
-    hand_over_with_care(simulation, frame);
+    hand_over_with_care(simulation, frame, true);
 }
 
 /// The protocol stack has sent a frame, or never will.
 void Talker::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) {
   const FrameIndex frame{static_cast<std::uint32_t>(job)};
   if (ending == Ending::done)
-    hand_over_with_care(simulation, frame);
+    hand_over_with_care(simulation, frame, false);
   else
     traffic_->drop(frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), simulation);
 }

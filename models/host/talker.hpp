@@ -63,7 +63,7 @@ class alignas(64) Talker final : public sim::Component, public CpuUser {
   [[gnu::noinline]] sim::TrueTime ask_clock();
   void hand_over(sim::Simulation& simulation, FrameIndex frame);
   [[gnu::noinline]] void mark(Frame& frame) const;
-  [[gnu::noinline]] void hand_over_with_care(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void hand_over_with_care(sim::Simulation& simulation, FrameIndex frame, bool is_last);
   /// The local time of frame number `count_`, or never.
   sim::LocalTime time_of_next();
 

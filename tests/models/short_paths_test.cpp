@@ -121,10 +121,18 @@ TEST(ShortPaths, CreditBasedShapers) {
   expect_no_difference(config, nothing, bar_by_open_gates);
 }
 
-TEST(ShortPaths, Preemption) {
-  const auto config = [](Chance&) {
-    PortConfig merging;
-    merging.preemption = PreemptionConfig{0x1F, AddFragSize(0), std::nullopt, {}};
+PortConfig with_preemption(Chance&) {
+  PortConfig config;
+  config.preemption = PreemptionConfig{0x1F, AddFragSize(0), std::nullopt, {}};
+  return config;
+}
+
+TEST(ShortPaths, Preemption) { expect_no_difference(with_preemption, nothing, bar_by_open_gates); }
+
+TEST(ShortPaths, PreemptionBehindShortQueues) {
+  const auto config = [](Chance& chance) {
+    PortConfig merging = with_preemption(chance);
+    for (QueueLimit& limit : merging.queue_limits) limit = {static_cast<std::uint32_t>(chance(1, 3)), static_cast<std::uint32_t>(chance(1'600, 4'000)), chance(0, 1) == 1};
     return merging;
   };
   expect_no_difference(config, nothing, bar_by_open_gates);
@@ -169,6 +177,17 @@ TEST(ShortPaths, MetersAndSchedulers) {
   for (const std::uint64_t rate : {30'000'000u, 150'000'000u, 600'000'000u}) {
     expect_no_difference(config, [&](NetworkPlan& plan) { police(plan, rate, 2'000); }, bar);
   }
+}
+
+/// A link that may fail is asked about each frame.
+void bar_by_links_that_may_fail(NetworkPlan& plan) {
+  for (LinkPlan& link : plan.links) link.may_fail = true;
+}
+
+TEST(ShortPaths, ArrivalsThatAreWithdrawn) { expect_no_difference(with_preemption, nothing, bar_by_links_that_may_fail); }
+
+TEST(ShortPaths, ArrivalsThatAreWithdrawnFromABridgeThatPolices) {
+  expect_no_difference(with_preemption, [](NetworkPlan& plan) { police(plan, 150'000'000, 2'000); }, bar_by_links_that_may_fail);
 }
 
 }  // namespace

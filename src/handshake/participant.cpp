@@ -17,7 +17,7 @@ template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
   // Nearly all steps are these, once a cycle for each peer. (In `paper` no word is in line.)
   if (input.kind == Input::Kind::received && robust_is_in_line(input)) [[likely]] {
-    if (machine_.state() == program::State::Ready || machine_.initialising() || !robust_says_nothing_new(input)) return robust_follow(input);
+    if (!robust_says_nothing_new(input)) return robust_follow(input);
     peers_[input.peer].sequence = input.sequence;
     Outputs outputs;
     outputs.arm_timeout = PeerSet{1} << input.peer;
@@ -87,13 +87,13 @@ inline bool Participant<MaxPeers>::robust_is_in_line(const Input& input) const {
   return peer.sequence_known && ahead >= 0 && input.word.incarnation == peer.incarnation;
 }
 
-/// Such a word of which robust_received would note the sequence number only: what the peer said last, and no sign of a barrier that was taken without
-/// this participant.
+/// Such a word of which robust_received would note the sequence number only: what the peer said last, and what this participant says itself. So it can be said under this intent:
+/// a peer that has said it under another one, and says so still, is damaged or made up. Whoever is Ready or in INIT may have a barrier to take.
 template <std::size_t MaxPeers>
 inline bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
   const Peer& peer = peers_[input.peer];
   const Word& word = input.word;
-  return word.state == peer.state && word.run == peer.run && (word.run == run_ || is_master() || word.run != intent_.run);
+  return machine_.is_just_in(static_cast<program::State>(word.state)) && word.state != PublishedState::Ready && word.state == peer.state && word.run == peer.run && word.run == run_;
 }
 
 /// One that is nested may be Ready already: then the run that it is to be Ready in has waited for the other group.
@@ -133,23 +133,9 @@ bool Participant<MaxPeers>::may_run() const {
 }
 
 template <std::size_t MaxPeers>
-Word Participant<MaxPeers>::word() const {
-  if (config_.variant == Variant::paper) return Word{0, state(), Intent{}, 0};
-  return Word{config_.incarnation, state(), intent_, run_};
-}
-
-template <std::size_t MaxPeers>
 bool Participant<MaxPeers>::process_data_counts(std::size_t peer) const {
   TAKT_CHECK(peer < peer_count(), "process data comes from a peer");
   return process_data_counts(peer, peers_[peer].run);
-}
-
-template <std::size_t MaxPeers>
-bool Participant<MaxPeers>::process_data_counts(std::size_t peer, std::uint32_t sender_run) const {
-  TAKT_CHECK(peer < peer_count(), "process data comes from a peer");
-  const Peer& sender = peers_[peer];
-  return machine_.state() == program::State::Running && sender.state == PublishedState::Running && sender.run == run_ &&
-         sender_run == run_;
 }
 
 /// Goes to a state by the one transition that leads there. INIT is always entered afresh, from Halted.

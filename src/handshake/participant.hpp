@@ -55,7 +55,7 @@ class Participant {
   std::uint32_t run() const { return run_; }
   const Intent& intent() const { return intent_; }
   /// What it publishes now.
-  Word word() const;
+  Word word() const { return config_.variant == Variant::paper ? Word{0, state(), Intent{}, 0} : Word{config_.incarnation, state(), intent_, run_}; }
 
   std::size_t peer_count() const { return is_master() || config_.subscription == Subscription::all_to_all ? config_.slaves : 1; }
   /// The participant that a peer index stands for, and back: they are in the same order. Peer 0 of a slave is the master.
@@ -68,7 +68,11 @@ class Participant {
   bool process_data_counts(std::size_t peer) const;
   /// The same for process data that carries the run of its sender by itself (a message without a word). Not for
   /// `paper`.
-  bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const;
+  bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const {
+    TAKT_CHECK(peer < peer_count(), "process data comes from a peer");
+    const Peer& sender = peers_[peer];
+    return machine_.state() == program::State::Running && sender.state == PublishedState::Running && sender.run == run_ && sender_run == run_;
+  }
 
   /// The same participant in a group whose participants have other indices: `to[i]` is the new index of participant i. A
   /// permutation of 0 to slaves, which leaves the master 0. Its own index, the origin of its intent and the order of its peers
@@ -162,6 +166,8 @@ class Participant {
   bool counted_without_me(std::size_t peer, const Word& word) const;
   bool ran_without_me(const Word& word) const;
   void robust_barrier(Outputs& outputs);
+  /// Anywhere else robust_barrier() does nothing: who is Running has it behind it.
+  bool is_in_barrier() const { return intent_.kind == IntentKind::Start && machine_.state() != program::State::Running; }
 
   // paper.cpp
   void paper_command(program::Method method, Outputs& outputs);

@@ -111,7 +111,7 @@ inline void Participant<MaxPeers>::robust_received(const Input& input, Outputs& 
   } else if (is_greater) {
     adopt(word.intent, outputs);
   }
-  robust_barrier(outputs);
+  if (is_in_barrier()) robust_barrier(outputs);
 }
 
 /// A step with a word.
@@ -144,7 +144,7 @@ Outputs Participant<MaxPeers>::robust_follow(const Input& input) {
   }
   outputs.arm_timeout = PeerSet{1} << input.peer;
   const std::uint32_t run_before = run_;
-  robust_barrier(outputs);
+  if (is_in_barrier()) robust_barrier(outputs);
   outputs.publish = outputs.change_count > 0 || run_ != run_before;
   check_word(outputs);
   return outputs;

@@ -22,6 +22,8 @@ class Machine {
   constexpr State state() const { return state_; }
   /// True in the substate INIT of Halted.
   constexpr bool initialising() const { return initialising_; }
+  /// In this state and in no substate.
+  constexpr bool is_just_in(State state) const { return state_ == state && !initialising_; }
   /// Halted and in no substate.
   constexpr bool at_rest() const { return state_ == State::Halted && !initialising_; }
   /// The number of the last transition; 0 before the first one.

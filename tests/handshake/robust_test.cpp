@@ -357,6 +357,33 @@ TEST(Robust, HostileWordsDoNoHarm) {
   EXPECT_FALSE(is_ignored({number, IntentKind::Suspend, 1, run}, PublishedState::Suspended, run));
 }
 
+// What was true under the intent before, and cannot be said under the one that stands here: it neither counts as a sign of life nor makes the true words look old.
+TEST(Robust, TheLastWordUnderAnotherIntentIsNobodys) {
+  for (const Method method : {Method::Suspend, Method::Halt}) {
+    Group group = started(Variant::robust, 1);
+    const Word before = group[1].word();
+    group.call(0, method);
+    Word damaged = before;
+    damaged.intent = group[0].intent();
+    const Outputs outputs = group.step(0, Input::received(0, damaged, 30000));
+    EXPECT_TRUE(outputs.ignored);
+    EXPECT_EQ(outputs.arm_timeout, 0U);
+    EXPECT_FALSE(group.tell(1, 0).ignored);
+  }
+  // Halted, and the other one still in INIT or Halted again.
+  Group group(Variant::robust, 1);
+  group.call(0, Method::Start);
+  group.tell(0, 1);
+  group.tell(1, 0);
+  Word damaged = group[1].word();
+  EXPECT_EQ(damaged.state, PublishedState::HaltedInit);
+  group.call(0, Method::Halt);
+  damaged.intent = group[0].intent();
+  EXPECT_TRUE(group.step(0, Input::received(0, damaged, 30000)).ignored);
+  group.tell(0, 1);
+  EXPECT_FALSE(group.tell(1, 0).ignored);
+}
+
 // The greatest number, far ahead and far away: what a stranger says may halt the group, but it starts again.
 TEST(Robust, NoNumberIsTheLast) {
   for (const std::uint32_t number : {0xFFFFFFFFU, 0xFFFFFFFEU, 0x40000001U, 0x40000002U, 0x80000000U, 0xC0000001U, 0xC0000002U}) {

@@ -446,6 +446,7 @@ void Network::keep_arrivals(StreamIndex stream) {
 }
 
 void Network::start() {
+  find_sole_senders();
   for (std::uint32_t n = 0; n < clocks_.size(); ++n)
     if (clocks_[n] && has(NodeIndex{n})) clocks_[n]->start(*simulation_);
   for (std::uint32_t n = 0; n < stations_.size(); ++n)

@@ -129,6 +129,8 @@ class Network final : private LinkLocalSender {
   void note_routes();
   void fold_latencies();
   void unfold_latencies();
+  void find_sole_senders();
+  bool may_serve_one(const LinkPlan::End& end) const;
   void cross(const LinkPlan::End& from, const LinkPlan::End& to);
   void number_ports();
   void make_nodes();

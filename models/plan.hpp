@@ -47,6 +47,7 @@ struct LinkPlan {
     NodeIndex node;
     std::uint16_t port = 0;         ///< port number within the node, from 0
     bool gates_may_stick = false;   ///< a fault of its gates is planned
+    bool gates_may_change = false;  ///< Network::request_gates may be called for it
     std::optional<std::uint32_t> port_config = {};  ///< index into NetworkPlan::port_configs, if not that of the node
   };
   End a;

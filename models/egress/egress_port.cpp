@@ -64,6 +64,7 @@ void EgressPort::prepare() {
 }
 
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
+  if (sole_sender_) [[unlikely]] simulation.uncount_event();   // there for the recorder only
   if (event.kind() == wake_up) [[likely]]
     wake(simulation, event.time);
   else

@@ -12,6 +12,7 @@
 #include "models/egress/mac_merge.hpp"
 #include "models/egress/port_config.hpp"
 #include "models/egress/port_shaping.hpp"
+#include "models/egress/sole_sender.hpp"
 #include "models/ethernet/link.hpp"
 #include "models/ethernet/link_local.hpp"
 #include "sim/simulation.hpp"
@@ -42,6 +43,12 @@ class alignas(64) EgressPort final : public sim::Component {
   const Link& link() const { return link_; }
   /// Every frame is put on the link by Link::transmit. After prepare().
   bool sends_plainly() const { return !extras_ && link_.is_plain() && !link_.checks(); }
+  /// One process alone will hand frames to this port, all of class `q`: where it does so. After prepare(). Preconditions: sends_plainly(), decides_by_itself(), the queue has no
+  /// limit, and neither request_gates() nor force_gate() will be called.
+  SoleSender& serve_one(const sim::Simulation& simulation, TrafficClass q) {
+    sole_sender_ = std::make_unique<SoleSender>(simulation, link_, q);
+    return *sole_sender_;
+  }
   /// The other direction, by which the node receives.
   Link& incoming() const { return *incoming_; }
   /// The node receives by another link from now on. Precondition: both are down.
@@ -132,13 +139,14 @@ class alignas(64) EgressPort final : public sim::Component {
   const LocalClock& clock() const { return *clock_; }
 
   sim::ComponentId id() const { return link_.sender(); }
-  const PortQueues& queues() const { return queues_; }
-  std::uint64_t frames_sent() const { return link_.frames_sent(); }
-  std::uint64_t wire_octets_sent() const { return link_.wire_octets_sent(); }
+  const PortQueues& queues() const { return is_sent_to_ahead() ? sole_sender_->queues() : queues_; }
+  std::uint64_t frames_sent() const { return link_.frames_sent() - (is_sent_to_ahead() ? sole_sender_->to_come().frames : 0); }
+  std::uint64_t wire_octets_sent() const { return link_.wire_octets_sent() - (is_sent_to_ahead() ? sole_sender_->to_come().wire_octets : 0); }
   /// Those lost on its link are among them.
   std::uint64_t frames_dropped() const { return frames_dropped_ + link_.frames_lost(); }
 
  private:
+  bool is_sent_to_ahead() const { return sole_sender_ && !sole_sender_->is_recorded(); }
   static constexpr sim::EventKind wake_up = 0;
   static constexpr sim::EventKind stored_frame = 1;  // a frame that was not cut through has come wholly
   struct Arrival {
@@ -297,6 +305,7 @@ class alignas(64) EgressPort final : public sim::Component {
   bool only_merges_ = false;                 // it preempts, and there is nothing else
   bool has_new_head_ = false;                // a frame at the head of a queue was dropped for one that has come
   std::vector<Arrival> more_arrivals_;       // the others
+  std::unique_ptr<SoleSender> sole_sender_;  // see serve_one()
 };
 
 }  // namespace takt::models

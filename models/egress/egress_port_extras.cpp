@@ -201,6 +201,7 @@ void EgressPort::tell_refusals(sim::Simulation& simulation) {
 }
 
 ConfigChange EgressPort::request_gates(sim::Simulation& simulation, const GateConfig& gates) {
+  TAKT_CHECK(!sole_sender_, "it is known before the run that gates will change");
   make_shaping();
   const ConfigChange change = shaping_->request_gates(simulation.now(), gates);
   gates_changed(simulation);

@@ -96,6 +96,12 @@ class PortQueues {
     return frame;
   }
 
+  /// Frames that were never put in would have been waiting, so many at once.
+  void note_held(TrafficClass q, std::uint32_t frames, std::uint32_t octets) {
+    queues_[q].peak_frames = std::max(queues_[q].peak_frames, frames);
+    queues_[q].peak_octets = std::max(queues_[q].peak_octets, octets);
+  }
+
   /// The greatest number of frames that the queue has held, and of octets; not necessarily at once.
   std::uint32_t peak_frames(TrafficClass q) const { return queues_[q].peak_frames; }
   std::uint32_t peak_octets(TrafficClass q) const { return queues_[q].peak_octets; }

@@ -129,6 +129,16 @@ class Link {
   }
   /// The same where folds_latency(), of a frame that is not link-local.
   void transmit_folded(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  /// What these two do of a frame that will start at `start`, at the earliest now. Precondition besides theirs: nothing else is put on the medium before.
+  void transmit_at(sim::Simulation& simulation, sim::TrueTime start, FrameIndex frame, const Frame& record) {
+    const std::int64_t octet = octet_time_ps_;
+    const std::int64_t until_last_bit = octet * (preamble_and_sfd.count + record.length);
+    free_at_ = start.plus_saturated(sim::Duration::from_ps(until_last_bit + octet * inter_packet_gap.count));
+    wire_octets_sent_ += wire_length(Octets{record.length}).count;
+    const sim::TrueTime arrival = start.plus_saturated(sim::Duration::from_ps(until_last_bit + static_cast<std::int64_t>(delay_ps_)));
+    simulation.schedule(source_, folds_latency_ ? latency_->pass(arrival) : arrival, order_, static_cast<sim::EventKind>(folds_latency_ ? NodeEvent::taken_in : NodeEvent::frame_arrived),
+                        static_cast<std::uint64_t>(every_arrival_) << ArrivalArgument::frame_bits | frame.value);
+  }
   /// The same for any frame. When the receiver is told of it.
   sim::TrueTime transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable);
   /// The same for what is left of a frame that was cut.

@@ -37,6 +37,7 @@ Process::Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& outp
 
 void Process::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
+    if (sole_sender_ != nullptr) simulation.uncount_event();   // there for the recorder only
     const auto frame = static_cast<std::uint32_t>(event.argument);
     if (threads_.transmit) {
       Traffic::tell_processing(simulation, id(), FrameIndex{frame});
@@ -218,6 +219,11 @@ void Process::clock_changed() {
 
 void Process::send(StreamIndex stream, std::span<const std::byte> payload) {
   const FrameIndex frame = traffic_->produce(stream, payload, *simulation_);
+  if (sole_sender_ != nullptr && sole_sender_->takes(*simulation_)) [[likely]] {
+    const sim::TrueTime now = simulation_->now();
+    sole_sender_->send(*simulation_, frame, traffic_->frame(frame), transmits_at_once_ ? now : transmit_.pass(now.plus_saturated(seal_)));
+    return;
+  }
   if (sim::TraceSink* const trace = simulation_->trace()) [[unlikely]]
     trace->record({simulation_->now(), static_cast<std::uint32_t>(Occurrence::produced), id(), frame.value, stream.value});
   if (transmits_at_once_) {

@@ -32,6 +32,11 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   /// a job of its own, behind those that wait, and opening a part of the job of the message; without one they pass beside everything else.
   void secure(sim::Duration seal, sim::Duration open);
 
+  /// Whether a frame passes nothing but a latency on its way to the network interface: neither a processor nor a choice among interfaces.
+  bool sends_plainly() const { return cpu_ == nullptr && output_->is_plain(); }
+  /// Nobody else hands frames to the host's interface, and they wait for nothing but each other: what is sent goes there. Precondition: sends_plainly().
+  void send_by(SoleSender& sender) { sole_sender_ = &sender; }
+
   /// Starts the application at the present instant.
   void start() { application_->start(*this); }
   Application& application() { return *application_; }
@@ -105,6 +110,7 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   LatencyLine wake_up_;
   sim::Duration seal_;
   sim::Duration open_;
+  SoleSender* sole_sender_ = nullptr;     // see send_by()
   std::uint32_t crashes_ = 0;             // what was being opened is lost
   bool transmits_at_once_;
   bool wakes_at_once_;

@@ -392,6 +392,8 @@ class Resolver {
       if (set.to && r_.topology.nodes[neighbour.node].name != *set.to) continue;
       found = true;
       check_slopes_of(set, *node, neighbour.port, gates);
+      for (models::LinkPlan& link : r_.plan.links)
+        for (models::LinkPlan::End* const end : {&link.a, &link.b}) end->gates_may_change = end->gates_may_change || (end->node.value == *node && end->port == neighbour.port);
       r_.script.push_back({sim::TrueTime() + entry.at, ResolvedGates{models::NodeIndex{*node}, neighbour.port, gates}});
     }
     if (!found) report_no_neighbour(r_.topology, set.to.value_or(set.node), set.node, set.where.at(set.to ? "to" : "node"), diagnostics_);

@@ -46,6 +46,9 @@ class PeriodicFixedLayout {
 
   /// Puts the constant octets and the sequence number of the group; the fields are zeros. `target` must have size() octets.
   void start(std::span<std::byte> target, std::uint16_t sequence_number) const;
+  /// The same of a layout that has so many octets, as is known beforehand.
+  template <std::size_t octets>
+  void start(std::span<std::byte> target, std::uint16_t sequence_number) const;
   /// Puts the header of a DataSetMessage; `status` is the upper half of a StatusCode.
   void set_header(std::span<std::byte> target, std::size_t data_set, std::uint16_t sequence_number,
                   std::uint16_t status = 0) const;
@@ -91,6 +94,13 @@ class PeriodicFixedLayout {
 inline void PeriodicFixedLayout::start(std::span<std::byte> target, std::uint16_t sequence_number) const {
   TAKT_CHECK(target.size() >= prototype_.size(), "the target has room for the layout");
   std::memcpy(target.data(), prototype_.data(), prototype_.size());
+  store_little_endian(target.data() + sequence_at_, sequence_number);
+}
+
+template <std::size_t octets>
+void PeriodicFixedLayout::start(std::span<std::byte> target, std::uint16_t sequence_number) const {
+  TAKT_CHECK(prototype_.size() == octets && target.size() >= octets, "the layout has its length, and the target room for it");
+  std::memcpy(target.data(), prototype_.data(), octets);
   store_little_endian(target.data() + sequence_at_, sequence_number);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -92,10 +92,15 @@ class NodeOutputs {
   /// The next one, which lasts until the next turn; null when all have been taken.
   const Entry* next() {
     if (taken_ < entries_.size()) return &entries_[taken_++];
-    entries_.clear();
-    taken_ = 0;
-    messages_used_ = 0;
+    forget();
     return nullptr;
+  }
+  /// Calls carry(entry) for each that has not been taken.
+  void carry_out(auto&& carry) {
+    const Entry* const end = entries_.data() + entries_.size();
+    const Entry* entry = entries_.data() + taken_;
+    for (taken_ = entries_.size(); entry != end; ++entry) carry(*entry);
+    forget();
   }
 
   void add(handshake::Side side, auto&& what) {
@@ -104,14 +109,21 @@ class NodeOutputs {
   }
   /// Where a message is written that an output publishes.
   std::span<std::byte> message() {
-    if (messages_used_ == messages_.size()) messages_.emplace_back();
-    return messages_[messages_used_++];
+    if (messages_used_ == messages_.size()) [[unlikely]] messages_.push_back(std::make_unique<Message>());
+    return *messages_[messages_used_++];
   }
 
  private:
+  using Message = std::array<std::byte, most_message_octets>;
+  void forget() {
+    entries_.clear();
+    taken_ = 0;
+    messages_used_ = 0;
+  }
+
   std::vector<Entry> entries_;
   std::size_t taken_ = 0;
-  std::deque<std::array<std::byte, most_message_octets>> messages_;  // stay where they are
+  std::vector<std::unique_ptr<Message>> messages_;
   std::size_t messages_used_ = 0;
 };
 

@@ -26,6 +26,15 @@ ProgramEndpoint::ProgramEndpoint(EndpointSettings settings) : settings_(std::mov
   TAKT_CHECK(settings_.format->participants() == settings_.handshake.slaves + std::size_t{1}, "the format is that of the group");
   TAKT_CHECK(settings_.format->longest() <= most_message_octets, "a message fits into a frame");
   forget(settings_.handshake.incarnation);
+  find_peers();
+  for (std::size_t d = 0; d < data_.size(); ++d)
+    if (settings_.format->shape().data_sets[d].from == settings_.handshake.index && (settings_.on_demand.empty() || !settings_.on_demand[d])) cyclic_.push_back(static_cast<std::uint8_t>(d));
+}
+
+/// Which peer each participant is; they never change.
+void ProgramEndpoint::find_peers() {
+  peer_from_.assign(settings_.format->participants(), nobody);
+  for (std::size_t peer = 0; peer < participant_.peer_count(); ++peer) peer_from_[participant_.participant_of(peer)] = static_cast<std::uint8_t>(peer);
 }
 
 void ProgramEndpoint::forget(std::uint32_t incarnation) {
@@ -71,29 +80,24 @@ void ProgramEndpoint::set_cycle_alarm(const Turn& turn) {
 Verdict ProgramEndpoint::receive(const Turn& turn, uadp::Octets network_message) {
   const ProgramFormat& format = *settings_.format;
   const auto sender = format.sender_of(network_message);
-  const auto peer = sender ? peer_from(*sender) : std::nullopt;
-  // Nearly all states say what the one before said.
-  if (peer && known_[*peer].is_repeated_by(network_message)) return receive_state(turn, *peer, known_[*peer].message(static_cast<std::uint8_t>(*sender), network_message));
+  const std::size_t peer = sender ? peer_from_[*sender] : nobody;
+  if (peer != nobody) {
+    // Nearly all states say what the one before said.
+    if (known_[peer].is_repeated_by(network_message)) return receive_state(turn, peer, known_[peer].message(static_cast<std::uint8_t>(*sender), network_message));
+    if (ProcessDataMessage data; format.decode(network_message, data)) return receive_data(turn, peer, data);
+  }
   const auto message = format.decode(network_message);
   if (!message) {
     ++counts_.foreign;
     return format.refusal_of(network_message);
   }
-  if (!peer) {
+  if (peer == nobody) {
     ++counts_.unsubscribed;
     return Verdict::unsubscribed;
   }
-  if (const auto* const data = std::get_if<ProcessDataMessage>(&*message)) return receive_data(turn, *peer, *data);
   const auto& state = std::get<StateMessage>(*message);
-  known_[*peer].note(network_message, state.word);
-  return receive_state(turn, *peer, state);
-}
-
-/// The peer that a participant is here, if it is heard.
-std::optional<std::size_t> ProgramEndpoint::peer_from(std::size_t sender) const {
-  if (sender == settings_.handshake.index) return std::nullopt;
-  const std::size_t peer = participant_.peer_of(sender);
-  return peer < participant_.peer_count() && participant_.participant_of(peer) == sender ? std::optional(peer) : std::nullopt;
+  known_[peer].note(network_message, state.word);
+  return receive_state(turn, peer, state);
 }
 
 void ProgramEndpoint::expect(std::size_t peer, std::optional<std::uint32_t> incarnation) {
@@ -111,7 +115,11 @@ Verdict ProgramEndpoint::receive_state(const Turn& turn, std::size_t peer, const
   if (!is_new(states_[peer], message.sequence, message.word.incarnation, turn.now)) return Verdict::stale;
   ++counts_.taken;
   turn.out.add(side_, Heard{peer, message.word});
-  step(turn, Input::received(peer, message.word, message.sequence));
+  const Outputs outputs = participant_.step(Input::received(peer, message.word, message.sequence));
+  if (outputs.is_quiet() && outputs.arm_timeout == handshake::PeerSet{1} << peer && nesting_ == nullptr) [[likely]]
+    turn.out.add(side_, SetAlarm{first_peer_alarm + peer, turn.now + settings_.receive_timeout});
+  else
+    follow(turn, outputs);
   return Verdict::taken;
 }
 
@@ -142,9 +150,14 @@ bool Arrivals::take(std::uint16_t sequence, std::uint32_t of_life, sim::LocalTim
   return true;
 }
 
-/// What its outputs ask for comes behind it.
 Outputs ProgramEndpoint::step(const Turn& turn, const Input& input) {
   const Outputs outputs = participant_.step(input);
+  follow(turn, outputs);
+  return outputs;
+}
+
+/// A step has been taken: what its outputs ask for comes behind it.
+void ProgramEndpoint::follow(const Turn& turn, const Outputs& outputs) {
   if (!outputs.is_quiet()) turn.out.add(side_, Stepped{outputs, participant_.word()});
   if (outputs.begin_initialisation) {
     initialisation_run_ = outputs.initialisation_run;
@@ -154,7 +167,6 @@ Outputs ProgramEndpoint::step(const Turn& turn, const Input& input) {
     turn.out.add(side_, SetAlarm{first_peer_alarm + static_cast<std::size_t>(std::countr_zero(peers)), turn.now + settings_.receive_timeout});
   if (outputs.publish && settings_.publish_on_change) publish_state(turn);
   if (nesting_ != nullptr) nesting_->settle(turn);
-  return outputs;
 }
 
 void ProgramEndpoint::publish_state(const Turn& turn) {
@@ -176,10 +188,7 @@ bool ProgramEndpoint::publish_data(const Turn& turn, std::uint8_t data_set) {
 }
 
 void ProgramEndpoint::publish_process_data(const Turn& turn) {
-  for (std::size_t d = 0; d < data_sequence_.size(); ++d) {
-    if (settings_.format->shape().data_sets[d].from != settings_.handshake.index) continue;
-    if (settings_.on_demand.empty() || !settings_.on_demand[d]) publish_data(turn, static_cast<std::uint8_t>(d));
-  }
+  for (const std::uint8_t data_set : cyclic_) publish_data(turn, data_set);
 }
 
 }  // namespace takt::wire

@@ -95,7 +95,8 @@ class ProgramEndpoint {
 
   Verdict receive_state(const Turn& turn, std::size_t peer, const StateMessage& message);
   Verdict receive_data(const Turn& turn, std::size_t peer, const ProcessDataMessage& message);
-  std::optional<std::size_t> peer_from(std::size_t sender) const;
+  void find_peers();
+  void follow(const Turn& turn, const handshake::Outputs& outputs);
   bool is_new(Arrivals& arrivals, std::uint16_t sequence, std::uint32_t life, sim::LocalTime now);
   void publish_state(const Turn& turn);
   void publish_process_data(const Turn& turn);
@@ -104,6 +105,9 @@ class ProgramEndpoint {
 
   EndpointSettings settings_;
   handshake::Participant<64> participant_;
+  static constexpr std::uint8_t nobody = 0xFF;
+  std::vector<std::uint8_t> peer_from_;       ///< by participant: the peer that it is here, if it is heard; else nobody
+  std::vector<std::uint8_t> cyclic_;          ///< the own data sets that are published every cycle
   std::vector<Arrivals> states_;              ///< by peer; their lives are incarnations, those of process data runs
   std::vector<KnownState> known_;             ///< by peer: its last message that was sound
   std::vector<std::optional<std::uint32_t>> expected_;  ///< by peer: its only incarnation; empty: any

@@ -36,7 +36,7 @@ uadp::RawLayout data_fields(const DataSetShape& data_set) {
 
 }  // namespace
 
-ProgramFormat::ProgramFormat(ProgramShape shape) : shape_(std::move(shape)), group_version_(group_version_of(shape_)) {
+ProgramFormat::ProgramFormat(ProgramShape shape) : shape_(std::move(shape)), participants_(shape_.participants.size()), group_version_(group_version_of(shape_)) {
   const auto layout = [&](std::size_t participant, std::size_t group, uadp::RawLayout fields) {
     uadp::PeriodicFixedLayout::Settings settings;
     settings.publisher_id = uadp::PublisherId::uint16(static_cast<std::uint16_t>(shape_.first_publisher_id + participant));
@@ -60,7 +60,7 @@ std::size_t ProgramFormat::longest() const {
 
 uadp::Octets ProgramFormat::encode(const StateMessage& message, std::span<std::byte> target) const {
   const uadp::PeriodicFixedLayout& layout = states_[message.sender];
-  layout.start(target, message.sequence);
+  shape_.variant == Variant::robust ? layout.start<state_octets(Variant::robust)>(target, message.sequence) : layout.start(target, message.sequence);
   layout.set_header(target, 0, message.sequence);
   // start() has seen that there is room; the constructor, that the fields end with the message.
   std::byte* const fields = target.data() + fields_at;
@@ -92,10 +92,14 @@ std::optional<ProgramMessage> ProgramFormat::decode(uadp::Octets octets) const {
   const auto sender = sender_of(octets);
   if (!sender) return std::nullopt;
   const auto group = uadp::load_little_endian<std::uint16_t>(octets.data() + writer_group_at);
-  const std::size_t data_set = static_cast<std::uint16_t>(group - first_data_writer_group);
   if (group == state_writer_group) return decode_state(static_cast<std::uint8_t>(*sender), octets);
-  if (data_set >= data_.size()) return std::nullopt;
-  return decode_data(static_cast<std::uint8_t>(data_set), octets);
+  ProcessDataMessage message;
+  return decode_data(static_cast<std::uint16_t>(group - first_data_writer_group), octets, message) ? std::optional<ProgramMessage>(message) : std::nullopt;
+}
+
+bool ProgramFormat::decode(uadp::Octets octets, ProcessDataMessage& message) const {
+  if (octets.size() < fields_at) return false;
+  return decode_data(static_cast<std::uint16_t>(uadp::load_little_endian<std::uint16_t>(octets.data() + writer_group_at) - first_data_writer_group), octets, message);
 }
 
 Verdict ProgramFormat::refusal_of(uadp::Octets octets) const {
@@ -138,16 +142,16 @@ std::optional<ProgramMessage> ProgramFormat::decode_state(std::uint8_t sender, u
 }
 
 /// The layout holds the PublisherId of the only participant that may send the data set.
-std::optional<ProgramMessage> ProgramFormat::decode_data(std::uint8_t data_set, uadp::Octets octets) const {
+inline bool ProgramFormat::decode_data(std::size_t data_set, uadp::Octets octets, ProcessDataMessage& message) const {
+  if (data_set >= data_.size()) return false;
   const uadp::PeriodicFixedLayout& layout = data_[data_set];
-  if (!layout.matches(octets) || has_no_value(octets)) return std::nullopt;
-  ProcessDataMessage message;
+  if (!layout.matches(octets) || has_no_value(octets)) return false;
   message.sender = shape_.data_sets[data_set].from;
-  message.data_set = data_set;
+  message.data_set = static_cast<std::uint8_t>(data_set);
   message.sequence = layout.sequence_number(octets, 0);
   message.run = uadp::load_little_endian<std::uint32_t>(octets.data() + fields_at);
   message.fields = octets.subspan(process_data_octets(0), layout.size() - process_data_octets(0));
-  return message;
+  return true;
 }
 
 }  // namespace takt::wire

@@ -94,7 +94,7 @@ class ProgramFormat {
 
   const ProgramShape& shape() const { return shape_; }
   std::uint32_t group_version() const { return group_version_; }
-  std::size_t participants() const { return states_.size(); }
+  std::size_t participants() const { return participants_; }
   /// Octets of the longest message.
   std::size_t longest() const;
 
@@ -106,23 +106,26 @@ class ProgramFormat {
   /// Nothing if the octets are no message of this Program, or say what no participant says. Octets behind a message (padding of
   /// Ethernet) are passed over.
   std::optional<ProgramMessage> decode(uadp::Octets octets) const;
+  /// The same of a message that probably is process data; false if it is none that decode() takes.
+  bool decode(uadp::Octets octets, ProcessDataMessage& message) const;
   /// The participant of whom the octets are, if they are a message of this Program at all.
   std::optional<std::size_t> sender_of(uadp::Octets octets) const {
     if (octets.size() < fields_at) return std::nullopt;
     const auto id = uadp::load_little_endian<std::uint16_t>(octets.data() + publisher_id_at);
     const std::size_t sender = static_cast<std::uint16_t>(id - shape_.first_publisher_id);
-    return sender < states_.size() ? std::optional(sender) : std::nullopt;
+    return sender < participants() ? std::optional(sender) : std::nullopt;
   }
   /// Why `decode` gives nothing for these octets.
   Verdict refusal_of(uadp::Octets octets) const;
 
  private:
   std::optional<ProgramMessage> decode_state(std::uint8_t sender, uadp::Octets octets) const;
-  std::optional<ProgramMessage> decode_data(std::uint8_t data_set, uadp::Octets octets) const;
+  bool decode_data(std::size_t data_set, uadp::Octets octets, ProcessDataMessage& message) const;
 
   static constexpr std::size_t publisher_id_at = 2;  // in UADP-Periodic-Fixed with a UInt16 PublisherId (OPC 10000-14, A.2.1.2)
 
   ProgramShape shape_;
+  std::size_t participants_;
   std::uint32_t group_version_;
   std::vector<uadp::PeriodicFixedLayout> states_;  ///< by participant
   std::vector<uadp::PeriodicFixedLayout> data_;    ///< by data set

@@ -75,8 +75,6 @@ Turn ProgramNode::turn(sim::LocalTime now) {
 
 std::size_t ProgramNode::alarm_count() const { return role_alarm() + (candidate_ ? 1 : binder_ ? 1 + settings_.roles->format->candidates() : 0); }
 
-std::optional<std::size_t> ProgramNode::participant() const { return endpoint_ ? std::optional<std::size_t>(endpoint_->settings().handshake.index) : std::nullopt; }
-
 NodeOutputs& ProgramNode::start(sim::LocalTime now) {
   const Turn turn = this->turn(now);
   if (endpoint_) endpoint_->start(turn);
@@ -111,13 +109,19 @@ NodeOutputs& ProgramNode::publish_data(sim::LocalTime now, std::uint8_t data_set
   return turn.out;
 }
 
-/// What other candidates announce is for the master, what a master sends in tables for candidates.
 NodeOutputs& ProgramNode::receive(sim::LocalTime now, uadp::Octets network_message) {
   const Turn turn = this->turn(now);
-  const auto message = settings_.roles ? settings_.roles->format->decode(network_message) : std::nullopt;
+  if (settings_.roles) return receive_with_roles(turn, network_message);
+  turn.out.verdict = endpoint_->receive(turn, network_message);
+  return turn.out;
+}
+
+/// What other candidates announce is for the master, what a master sends in tables for candidates.
+NodeOutputs& ProgramNode::receive_with_roles(const Turn& turn, uadp::Octets network_message) {
+  const auto message = settings_.roles->format->decode(network_message);
   if (!message) {
     turn.out.verdict = endpoint_ ? endpoint_->receive(turn, network_message) : settings_.endpoint.format->decode(network_message) ? Verdict::unsubscribed : settings_.endpoint.format->refusal_of(network_message);
-    if (turn.out.verdict == Verdict::other_group && settings_.roles) turn.out.verdict = settings_.roles->format->refusal_of(network_message);
+    if (turn.out.verdict == Verdict::other_group) turn.out.verdict = settings_.roles->format->refusal_of(network_message);
   } else if (const auto* const announcement = std::get_if<AnnouncementMessage>(&*message)) {
     turn.out.verdict = !binder_ ? Verdict::unsubscribed : take(turn, *announcement) ? Verdict::taken : Verdict::stale;
     if (binder_ && turn.out.verdict != Verdict::taken) return turn.out;
@@ -132,6 +136,10 @@ NodeOutputs& ProgramNode::receive(sim::LocalTime now, uadp::Octets network_messa
 
 NodeOutputs& ProgramNode::wake(sim::LocalTime now, std::size_t alarm) {
   const Turn turn = this->turn(now);
+  if (!settings_.roles) {
+    endpoint_->wake(turn, alarm);
+    return turn.out;
+  }
   if (alarm == role_alarm()) {
     candidate_ ? announce(turn) : publish_table(turn);
     turn.out.add(side_, SetAlarm{alarm, now + settings_.roles->announce_cycle});

@@ -70,7 +70,7 @@ class ProgramNode {
   /// Peers that it has, or will have with a role.
   std::size_t peer_count() const { return peers_; }
   /// As which participant it takes part now, 0 for the master; nothing at a candidate without a role.
-  std::optional<std::size_t> participant() const;
+  std::optional<std::size_t> participant() const { return endpoint_ ? std::optional<std::size_t>(endpoint_->settings().handshake.index) : std::nullopt; }
   /// Its state as a participant; a candidate without a role is Halted.
   handshake::PublishedState state() const { return endpoint_ ? endpoint_->participant().state() : handshake::PublishedState::Halted; }
   /// The participant; null without a role.
@@ -92,6 +92,7 @@ class ProgramNode {
   bool is_complete() const { return !binder_ || binder_->complete(); }
 
   Turn turn(sim::LocalTime now);
+  [[gnu::noinline]] NodeOutputs& receive_with_roles(const Turn& turn, uadp::Octets network_message);
   std::size_t role_alarm() const { return ProgramEndpoint::alarm_count(peers_); }  // announcement or table; candidates' silence behind it
   void begin();
   bool take(const Turn& turn, const AnnouncementMessage& message);

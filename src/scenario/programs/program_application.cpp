@@ -61,7 +61,7 @@ std::optional<handshake::PublishedState> ProgramApplication::state_of(std::uint3
 }
 
 void ProgramApplication::wake(models::HostServices& host, models::AlarmId alarm) {
-  if (alarm == work_alarm()) {
+  if (replies_ && alarm == work_alarm()) {
     end_work(host);
     return;
   }
@@ -77,8 +77,12 @@ void ProgramApplication::receive(models::HostServices& host, models::StreamIndex
 }
 
 void ProgramApplication::carry_out(models::HostServices& host, wire::NodeOutputs& outputs) {
-  while (const auto* const output = outputs.next())
-    std::visit([&](const auto& what) { output->side == side_ ? act(host, what) : other_->act(*host_of_other_, what); }, output->what);
+  outputs.carry_out([&](const wire::NodeOutputs::Entry& output) {
+    const bool is_own = output.side == side_;
+    ProgramApplication& of = is_own ? *this : *other_;
+    models::HostServices& on = is_own ? host : *host_of_other_;
+    std::visit([&](const auto& what) { of.act(on, what); }, output.what);
+  });
 }
 
 void ProgramApplication::act(models::HostServices& host, const wire::Publish& message) {

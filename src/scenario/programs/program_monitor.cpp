@@ -103,7 +103,7 @@ void ProgramMonitor::on_process_data(std::size_t from, std::size_t to, std::uint
   counts_.add(simulation_->now(), [](Counts& counts) { ++counts.process_data_received; });
   observer_.on_process_data(from, to, sent_in);
   simulation_->digest().add(data_received, static_cast<std::uint64_t>(number_) << 32 | from << 8 | to, simulation_->now(), sent_in);
-  note_violations();
+  if (!observer_.violations().empty()) [[unlikely]] note_violations();
 }
 
 void ProgramMonitor::note_violations() {

@@ -138,6 +138,14 @@ bool Participant<MaxPeers>::process_data_counts(std::size_t peer) const {
   return process_data_counts(peer, peers_[peer].run);
 }
 
+template <std::size_t MaxPeers>
+bool Participant<MaxPeers>::process_data_counts(std::size_t peer, std::uint32_t sender_run) const {
+  TAKT_CHECK(peer < peer_count(), "process data comes from a peer");
+  const Peer& sender = peers_[peer];
+  return machine_.state() == program::State::Running && sender.state == PublishedState::Running && sender.run == run_ &&
+         sender_run == run_;
+}
+
 /// Goes to a state by the one transition that leads there. INIT is always entered afresh, from Halted.
 template <std::size_t MaxPeers>
 void Participant<MaxPeers>::move_to(PublishedState target, Outputs& outputs) {

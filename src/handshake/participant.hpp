@@ -68,11 +68,7 @@ class Participant {
   bool process_data_counts(std::size_t peer) const;
   /// The same for process data that carries the run of its sender by itself (a message without a word). Not for
   /// `paper`.
-  bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const {
-    TAKT_CHECK(peer < peer_count(), "process data comes from a peer");
-    const Peer& sender = peers_[peer];
-    return machine_.state() == program::State::Running && sender.state == PublishedState::Running && sender.run == run_ && sender_run == run_;
-  }
+  bool process_data_counts(std::size_t peer, std::uint32_t sender_run) const;
 
   /// The same participant in a group whose participants have other indices: `to[i]` is the new index of participant i. A
   /// permutation of 0 to slaves, which leaves the master 0. Its own index, the origin of its intent and the order of its peers

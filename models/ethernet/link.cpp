@@ -28,14 +28,7 @@ void Link::expect_faults(const sim::Simulation& simulation, std::string_view pat
   if (!fault_) fault_ = std::make_unique<LinkFault>(simulation.seed(), path);
 }
 
-void Link::transmit_folded(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
-  const sim::TrueTime now = simulation.now();
-  const Octets length{record.length};
-  free_at_ = now + octet_time() * wire_length(length).count;
-  wire_octets_sent_ += wire_length(length).count;
-  const sim::TrueTime arrival = now + octet_time() * (preamble_and_sfd + length).count + delay();
-  simulation.schedule(source_, latency_->pass(arrival), order_, static_cast<sim::EventKind>(NodeEvent::taken_in), ArrivalArgument::pack(frame, port()));
-}
+void Link::transmit_folded(sim::Simulation& simulation, FrameIndex frame, const Frame& record) { transmit_at(simulation, simulation.now(), frame, record); }
 
 sim::TrueTime Link::transmit_any(sim::Simulation& simulation, FrameIndex frame, const Frame& record, bool is_preemptable) {
   unsigned flags = checks() || record.marked || record.bad_fcs ? unsigned{ArrivalArgument::check} : 0u;

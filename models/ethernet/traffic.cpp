@@ -15,7 +15,10 @@ StreamIndex Traffic::add_stream(Stream stream) {
   return index;
 }
 
-inline void Traffic::begin(Frame& frame, Stream& stream, StreamIndex index, Octets payload, sim::TrueTime now) {
+inline FrameIndex Traffic::make(StreamIndex index, Octets payload, sim::TrueTime now) {
+  Stream& stream = streams_[index.value];
+  const FrameIndex handle = frames_.allocate();
+  Frame& frame = frames_[handle];
   frame.produced = now;
   frame.sequence = stream.sent++;
   frame.destination = stream.destination;
@@ -36,6 +39,7 @@ inline void Traffic::begin(Frame& frame, Stream& stream, StreamIndex index, Octe
   frame.on_route = true;
   frame.hop = 0;
   frame.marked = false;
+  return handle;
 }
 
 inline PayloadIndex Traffic::keep(std::span<const std::byte> octets) {
@@ -46,6 +50,12 @@ inline PayloadIndex Traffic::keep(std::span<const std::byte> octets) {
   copy.length = static_cast<std::uint16_t>(octets.size());
   std::copy(octets.begin(), octets.end(), copy.octets.begin());
   return payload;
+}
+
+inline FrameIndex Traffic::make(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
+  const FrameIndex handle = make(index, Octets{static_cast<std::uint32_t>(octets.size())}, now);
+  frames_[handle].payload = keep(octets);
+  return handle;
 }
 
 FrameIndex Traffic::take_over(const Frame& frame, std::span<const std::byte> payload) {
@@ -71,36 +81,18 @@ void Traffic::adopt(const Traffic& other) {
   adopted_.push_back(&other);
 }
 
-FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) {
-  const FrameIndex handle = frames_.allocate();
-  begin(frames_[handle], streams_[index.value], index, payload, now);
-  return handle;
-}
-
-FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
-  const FrameIndex handle = frames_.allocate();
-  Frame& frame = frames_[handle];
-  begin(frame, streams_[index.value], index, Octets{static_cast<std::uint32_t>(octets.size())}, now);
-  frame.payload = keep(octets);
-  return handle;
-}
+FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) { return make(index, payload, now); }
+FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) { return make(index, octets, now); }
 
 FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::Simulation& simulation) {
-  const FrameIndex handle = frames_.allocate();
-  Frame& frame = frames_[handle];
-  Stream& stream = streams_[index.value];
-  begin(frame, stream, index, payload, simulation.now());
-  count_production(frame, stream, simulation);
+  const FrameIndex handle = make(index, payload, simulation.now());
+  count_production(frames_[handle], simulation);
   return handle;
 }
 
 FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::Simulation& simulation) {
-  const FrameIndex handle = frames_.allocate();
-  Frame& frame = frames_[handle];
-  Stream& stream = streams_[index.value];
-  begin(frame, stream, index, Octets{static_cast<std::uint32_t>(octets.size())}, simulation.now());
-  count_production(frame, stream, simulation);
-  frame.payload = keep(octets);
+  const FrameIndex handle = make(index, octets, simulation.now());
+  count_production(frames_[handle], simulation);
   return handle;
 }
 

@@ -187,7 +187,8 @@ class Traffic {
 
   /// The frame was produced at this instant.
   void count_production(const Frame& frame, sim::Simulation& simulation) const {
-    count_production(frame, streams_[frame.stream.value], simulation);
+    simulation.digest().add(streams_[frame.stream.value].production, frame.produced,
+                            sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.length) << 32 | frame.source.value));
   }
 
   /// The digest's key of deliveries of the stream at `listener`.
@@ -250,11 +251,8 @@ class Traffic {
  private:
   static constexpr std::uint32_t most_references = 0x7FFF'FFFF;
   static bool is_under_way(const Frame& frame) { return frame.references - 1 < most_references; }
-  /// What a frame of the stream is when it is produced, but for its octets; it counts as sent.
-  static void begin(Frame& frame, Stream& stream, StreamIndex index, Octets payload, sim::TrueTime now);
-  static void count_production(const Frame& frame, const Stream& stream, sim::Simulation& simulation) {
-    simulation.digest().add(stream.production, frame.produced, sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.length) << 32 | frame.source.value));
-  }
+  FrameIndex make(StreamIndex stream, Octets payload, sim::TrueTime now);
+  FrameIndex make(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
   FrameIndex separate(FrameIndex index, sim::ComponentId where);
   PayloadIndex keep(std::span<const std::byte> octets);
   /// One frame less carries the payload.

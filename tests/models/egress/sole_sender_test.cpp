@@ -42,7 +42,8 @@ struct Plant {
     other = builder.stream(talker, {listener}, {5, 0, {}});
     back = builder.stream(listener, {talker}, {5, 0, {}});
   }
-  Seen run(Duration end, bool is_recorded, std::uint64_t tie_shuffle = 0) const {
+  /// `ahead`, if asked for: how many frames the link has counted that the port has not begun to send.
+  Seen run(Duration end, bool is_recorded, std::uint64_t tie_shuffle = 0, std::uint64_t* ahead = nullptr) const {
     NetworkRun run(builder.plan, 3, tie_shuffle);
     TraceLog trace;
     if (is_recorded) run.simulation.set_trace(&trace);
@@ -53,6 +54,7 @@ struct Plant {
     install<Sender>(*run.network, listener, "answers", std::vector<Sender::Item>{{local(70_us), back, 200}, {local(71_us), back, 200}});
     run.until(end);
     const EgressPort& port = run.port(talker, 0);
+    if (ahead != nullptr) *ahead = port.link().frames_sent() - port.frames_sent();
     const TrafficClass q = port.config().traffic_class_of_priority[5];
     return {run.digest(), run.simulation.event_count(), run.stream(urgent).delivered + run.stream(other).delivered, port.frames_sent(), port.wire_octets_sent(), port.queues().peak_frames(q), port.queues().peak_octets(q)};
   }
@@ -67,9 +69,12 @@ TEST(SoleSender, SendsAsAPortDoes) {
     for (const bool to_bridge : {false, true}) {
       const Plant plant(transmit, to_bridge);
       std::uint32_t peak = 0;
+      std::uint64_t most_ahead = 0;
       for (int i = 0; i < 130; ++i) {
         const Duration end = 1_us + 29'700_ns * i;
-        const Seen seen = plant.run(end, false);
+        std::uint64_t ahead = 0;
+        const Seen seen = plant.run(end, false, 0, &ahead);
+        most_ahead = std::max(most_ahead, ahead);
         const Seen recorded = plant.run(end, true);
         ASSERT_EQ(seen, recorded) << i << ": " << seen.frames << " and " << recorded.frames << " frames, peaks " << seen.peak_frames << " and " << recorded.peak_frames << ", events " << seen.events << " and "
                                   << recorded.events;
@@ -77,6 +82,7 @@ TEST(SoleSender, SendsAsAPortDoes) {
         peak = std::max(peak, seen.peak_frames);
       }
       EXPECT_GE(peak, 3u);
+      EXPECT_GT(most_ahead, 0u) << "it is a sole sender";
     }
   }
 }
@@ -105,7 +111,11 @@ TEST(SoleSender, AnybodyMayBeginToRecord) {
 // Two classes may overtake each other, a limit may drop frames, and a second sender may come in between: then a port decides as ever.
 TEST(SoleSender, IsNoneWhereThereIsSomethingToDecide) {
   const auto same = [](const Plant& plant, const char* what) {
-    for (int i = 0; i < 40; ++i) ASSERT_EQ(plant.run(1_us + 97'300_ns * i, false), plant.run(1_us + 97'300_ns * i, true)) << what;
+    for (int i = 0; i < 40; ++i) {
+      std::uint64_t ahead = 0;
+      ASSERT_EQ(plant.run(1_us + 97'300_ns * i, false, 0, &ahead), plant.run(1_us + 97'300_ns * i, true)) << what;
+      ASSERT_EQ(ahead, 0u) << what;
+    }
   };
   Plant two_classes(Distribution::uniform(0_us, 90_us), false);
   two_classes.builder.plan.streams[two_classes.other.value].priority = 3;

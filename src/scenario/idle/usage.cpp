@@ -44,6 +44,7 @@ Usage::Usage(const Resolved& resolved) : r_(resolved), streams_(streams_at_ports
 
 /// Streams come over other ports, too, once rerouting has found other ways. Appended before anybody points into the list.
 void Usage::add_rerouted() {
+  if (std::none_of(r_.script.begin(), r_.script.end(), [](const ResolvedAction& action) { return std::holds_alternative<ResolvedRoutes>(action.what); })) return;
   IngressClasses ingress(r_);
   std::set<std::tuple<std::uint32_t, std::uint16_t, std::uint32_t>> known;
   for (const StreamAtPort& at : streams_) known.insert({at.node, at.port, at.stream.value});

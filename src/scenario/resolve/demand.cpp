@@ -3,29 +3,26 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <map>
-#include <utility>
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
+#include "scenario/topology/port_table.hpp"
 
 namespace takt::scenario {
 namespace {
-
-using Key = std::pair<std::uint32_t, std::uint16_t>;  // node, port
 
 std::string percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
 
 }  // namespace
 
 std::vector<PortDemand> demands_of(const Resolved& r, json::Diagnostics& diagnostics) {
-  std::map<Key, PortDemand> ports;
+  PortTable<PortDemand> ports(r.topology);
   for (const models::LinkPlan& link : r.plan.links) {
     const auto rate = static_cast<double>(link.rate.bits_per_second);
-    ports[{link.a.node.value, link.a.port}] = {link.a.node, link.a.port, link.b.node, rate, {}};
-    ports[{link.b.node.value, link.b.port}] = {link.b.node, link.b.port, link.a.node, rate, {}};
+    ports.at(link.a.node.value, link.a.port) = {link.a.node, link.a.port, link.b.node, rate, {}};
+    ports.at(link.b.node.value, link.b.port) = {link.b.node, link.b.port, link.a.node, rate, {}};
   }
-  for (const StreamAtPort& at : streams_at_ports(r)) {
+  for_each_stream_at_port(r, [&](const StreamAtPort& at) {
     const ResolvedStream& stream = r.streams[at.stream.value];
     const models::StreamPlan& plan = r.plan.streams[at.stream.value];
     const Octets made = models::frame_length(plan.headers + stream.largest_payload, plan.priority.has_value());
@@ -34,10 +31,11 @@ std::vector<PortDemand> demands_of(const Resolved& r, json::Diagnostics& diagnos
     // A stream gate that spreads a stream over classes, as cyclic queuing does, gives each its turn.
     const int classes = std::popcount(at.classes);
     for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
-      if (models::contains(at.classes, q)) ports[{at.node, at.port}].class_bits_per_second[q] += bits / classes;
-  }
+      if (models::contains(at.classes, q)) ports.at(at.node, at.port).class_bits_per_second[q] += bits / classes;
+  });
   std::vector<PortDemand> all;
-  for (auto& [key, port] : ports) {
+  for (const PortDemand& port : ports.values()) {
+    if (port.link_bits_per_second == 0) continue;   // no link ends there
     const double share = port.share();
     if (share <= 0) continue;
     const std::string from = r.plan.nodes[port.node.value].name;

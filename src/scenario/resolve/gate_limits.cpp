@@ -59,10 +59,10 @@ class LimitsCheck {
 
   void check_queues() {
     std::map<std::pair<std::uint32_t, std::uint16_t>, models::ClassSet> used;
-    for (const StreamAtPort& at : streams_at_ports(r_)) {
+    for_each_stream_at_port(r_, [&](const StreamAtPort& at) {
       models::ClassSet& classes = used[{at.node, at.port}];
       classes = static_cast<models::ClassSet>(classes | at.classes);
-    }
+    });
     if (r_.scenario.clocks.gptp)
       for (const models::LinkPlan& link : r_.plan.links)
         for (const models::LinkPlan::End* end : {&link.a, &link.b}) {

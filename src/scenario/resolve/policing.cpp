@@ -19,10 +19,11 @@ class Policing {
   Policing(const Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics) {}
 
   void run() {
-    for (const StreamAtPort& at : streams_at_ports(r_)) {
-      if (!at.filter) continue;
+    if (r_.plan.ingress_configs.empty()) return;
+    for_each_stream_at_port(r_, [&](const StreamAtPort& at) {
+      if (!at.filter) return;
       const auto& description = relay_of(r_.topology.nodes[at.node].description)->ingress;
-      if (!description || diagnostics_.is_refused(description->where.at("filters"))) continue;
+      if (!description || diagnostics_.is_refused(description->where.at("filters"))) return;
       const models::IngressConfig& config = r_.plan.ingress_configs[*r_.plan.nodes[at.node].ingress];
       const models::StreamFilterConfig& filter = config.stream_filters[*at.filter];
       // The ingress sees a frame once, however many ports it goes on through.
@@ -31,7 +32,7 @@ class Policing {
         if (!filter.ats_scheduler.is_none()) check_scheduler(at, filter.ats_scheduler.value, config, description->ats[filter.ats_scheduler.value]);
       }
       if (description->cqf && !filter.stream_gate.is_none() && config.stream_gates[filter.stream_gate.value].name == "cqf") check_cqf(at, *description->cqf);
-    }
+    });
     if (diagnostics_.has_errors()) return;  // loads may be others then
     for (const auto& [key, asked] : asked_) check_rate(key.first, key.second, asked);
   }

@@ -8,25 +8,25 @@
 
 #include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/redundancy.hpp"
+#include "scenario/topology/port_table.hpp"
 
 namespace takt::scenario {
 namespace {
 
 class Walker {
  public:
-  explicit Walker(const Resolved& resolved) : r_(resolved), ingress_(resolved) {
+  Walker(const Resolved& resolved, const std::function<void(const StreamAtPort&)>& visit) : r_(resolved), visit_(visit), ingress_(resolved), configs_(resolved.topology) {
     for (const models::LinkPlan& link : r_.plan.links)
-      for (const models::LinkPlan::End* end : {&link.a, &link.b}) ends_[{end->node.value, end->port}] = end;
+      for (const models::LinkPlan::End* end : {&link.a, &link.b}) configs_.at(end->node.value, end->port) = &port_config_of(r_.plan, *end);
     for (const ResolvedRedundancy& redundancy : r_.redundancies) redundancies_[redundancy.stream.value] = &redundancy;
   }
 
-  std::vector<StreamAtPort> run() {
+  void run() {
     for (const ResolvedStream& stream : r_.streams) {
       const auto redundant = redundancies_.find(stream.index.value);
       seen_.clear();
       for (std::size_t i = 0; i < stream.paths.size(); ++i) walk(stream, i, redundant == redundancies_.end() ? nullptr : redundant->second);
     }
-    return std::move(found_);
   }
 
  private:
@@ -34,7 +34,8 @@ class Walker {
     const models::StreamPlan& plan = r_.plan.streams[stream.index.value];
     const Path& path = stream.paths[number];
     const Octets msdu = plan.headers + stream.largest_payload;
-    const std::vector<OnHop> hops = redundancy != nullptr ? on_hops(r_, *redundancy, number) : std::vector<OnHop>(path.size() - 1);
+    const bool is_met_once = stream.paths.size() == 1;
+    const std::vector<OnHop> hops = redundancy != nullptr ? on_hops(r_, *redundancy, number) : std::vector<OnHop>();
     OnHop before;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       const std::uint16_t port = *r_.topology.port_towards(path[i], path[i + 1]);
@@ -50,24 +51,24 @@ class Walker {
       const bool is_policed_tagged = before.member && path[i] == redundancy->merge ? redundancy->description->keep_tag : before.r_tagged;
       made.policed_frame = models::frame_length(msdu, frame.tagged, is_policed_tagged);
       made.policed_msdu = msdu + (is_policed_tagged ? models::r_tag : Octets{0});
-      before = hops[i];
+      if (redundancy != nullptr) before = hops[i];
       made.member = before.member;
-      if (!seen_.insert({made.member ? *made.member + 1 : 0, path[i], port}).second) continue;
-      const models::PortConfig& config = port_config_of(r_.plan, *ends_.at({path[i], port}));
+      if (!is_met_once && !seen_.insert({made.member ? *made.member + 1 : 0, path[i], port}).second) continue;
+      const models::PortConfig& config = *configs_.at(path[i], port);
       const bool tagged = frame.tagged && !strips_tags(r_.topology, config, path[i], i == 0);
       made.frame = models::frame_length(msdu, tagged, before.r_tagged);
       made.msdu = msdu + (before.r_tagged ? models::r_tag : Octets{0});
       made.classes = ingress_.classes(path[i], config, made.filter, i == 0 ? plan.priority_at_talker() : frame.priority);
-      found_.push_back(made);
+      visit_(made);
     }
   }
 
   const Resolved& r_;
+  const std::function<void(const StreamAtPort&)>& visit_;
   IngressClasses ingress_;
-  std::map<std::pair<std::uint32_t, std::uint16_t>, const models::LinkPlan::End*> ends_;
+  PortTable<const models::PortConfig*> configs_;
   std::map<std::uint32_t, const ResolvedRedundancy*> redundancies_;
   std::set<std::tuple<std::size_t, std::uint32_t, std::uint16_t>> seen_;   // of one stream: member, node, port
-  std::vector<StreamAtPort> found_;
 };
 
 }  // namespace
@@ -78,7 +79,13 @@ bool begins_after_the_start(const models::NodePlan& node, const models::StreamGa
   return models::first_cycle_from(asked, gate.admin_base_time, gate.admin_cycle_time) > start;
 }
 
-std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved) { return Walker(resolved).run(); }
+std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved) {
+  std::vector<StreamAtPort> found;
+  for_each_stream_at_port(resolved, [&](const StreamAtPort& at) { found.push_back(at); });
+  return found;
+}
+
+void for_each_stream_at_port(const Resolved& resolved, const std::function<void(const StreamAtPort&)>& visit) { Walker(resolved, visit).run(); }
 
 models::ClassSet IngressClasses::classes(std::uint32_t node, const models::PortConfig& port, std::optional<std::uint32_t> filter, models::Priority priority) const {
   const models::TrafficClass own = port.traffic_class_of_priority[priority];

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -35,6 +36,8 @@ struct StreamAtPort {
 /// All streams at all ports of their paths: by stream, each port of a multicast once, in the order of the path. To be called when the
 /// ingress of switches is there (resolve_ingress).
 std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved);
+/// The same one after another: of a large plant they are many.
+void for_each_stream_at_port(const Resolved& resolved, const std::function<void(const StreamAtPort&)>& visit);
 
 /// Whether frames can come before the list of the stream gate is in force.
 bool begins_after_the_start(const models::NodePlan& node, const models::StreamGateConfig& gate);

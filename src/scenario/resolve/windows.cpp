@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
 #include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
+#include "scenario/topology/port_table.hpp"
 
 namespace takt::scenario {
 namespace {
-
-using Key = std::pair<std::uint32_t, std::uint16_t>;  // node, port
 
 /// Everything that opens gates of a port at some time of the run.
 struct PortGates {
@@ -32,11 +30,11 @@ void add(PortGates& port, const models::GateConfig& gates) {
   for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) port.longest_window[q] = std::max(port.longest_window[q], list.longest_window(q));
 }
 
-std::map<Key, PortGates> gates_of_ports(const Resolved& r) {
-  std::map<Key, PortGates> ports;
+PortTable<PortGates> gates_of_ports(const Resolved& r) {
+  PortTable<PortGates> ports(r.topology);
   for (const models::LinkPlan& link : r.plan.links)
     for (const models::LinkPlan::End* end : {&link.a, &link.b}) {
-      PortGates& port = ports[{end->node.value, end->port}];
+      PortGates& port = ports.at(end->node.value, end->port);
       port.link = &link;
       const std::optional<models::GateConfig>& gates = port_config_of(r.plan, *end).shaping.gates;
       // A list that begins when the run is over does not act.
@@ -44,9 +42,9 @@ std::map<Key, PortGates> gates_of_ports(const Resolved& r) {
       else port.is_open_without_list = true;
     }
   for (const ResolvedAction& action : r.script) {
-    if (const auto* gates = std::get_if<ResolvedGates>(&action.what)) add(ports[{gates->node.value, gates->port}], gates->gates);
+    if (const auto* gates = std::get_if<ResolvedGates>(&action.what)) add(ports.at(gates->node.value, gates->port), gates->gates);
     if (const auto* stuck = std::get_if<ResolvedStuckGate>(&action.what); stuck != nullptr && stuck->open.value_or(false)) {
-      PortGates& port = ports[{stuck->node.value, stuck->port}];
+      PortGates& port = ports.at(stuck->node.value, stuck->port);
       port.stuck_open = models::with(port.stuck_open, stuck->traffic_class);
     }
   }
@@ -64,22 +62,23 @@ bool is_of_cqf(const Resolved& r, const StreamAtPort& at) {
 }  // namespace
 
 void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
-  const std::map<Key, PortGates> ports = gates_of_ports(r);
+  const PortTable<PortGates> ports = gates_of_ports(r);
+  if (std::ranges::none_of(ports.values(), [](const PortGates& port) { return port.has_list; })) return;
   std::set<std::pair<std::uint32_t, std::uint32_t>> told;  // stream, node: the paths of members and several ports say the same
   // Lists and classes that were refused let nobody say what passes.
   const auto is_in_doubt = [&](const json::Place& place) { return diagnostics.is_refused(place); };
   if (is_in_doubt(r.scenario.network.where.at("links")) || is_in_doubt(r.scenario.network.where.at("generate")) || is_in_doubt(r.scenario.where.at("gates")) ||
       is_in_doubt(r.scenario.where.at("script")))
     return;
-  for (const StreamAtPort& at : streams_at_ports(r)) {
-    if (is_in_doubt(r.topology.nodes[at.node].where.place()) || is_in_doubt(r.streams[at.stream.value].where.place())) continue;
-    const PortGates& port = ports.at({at.node, at.port});
-    if (port.is_open_without_list || !port.has_list || at.classes == 0 || is_of_cqf(r, at)) continue;
+  for_each_stream_at_port(r, [&](const StreamAtPort& at) {
+    const PortGates& port = ports.at(at.node, at.port);
+    if (port.is_open_without_list || !port.has_list || at.classes == 0 || is_of_cqf(r, at)) return;
+    if (is_in_doubt(r.topology.nodes[at.node].where.place()) || is_in_doubt(r.streams[at.stream.value].where.place())) return;
     const Duration needed = port.link->rate.octet_time() * (models::preamble_and_sfd + at.frame).count;
     models::ClassSet shut = 0;
     for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
       if (models::contains(at.classes, q) && !models::contains(port.stuck_open, q) && port.longest_window[q] < needed) shut = models::with(shut, q);
-    if (shut == 0 || !told.insert({at.stream.value, at.node}).second) continue;
+    if (shut == 0 || !told.insert({at.stream.value, at.node}).second) return;
     const models::TrafficClass q = models::highest_class(shut);
     const ResolvedStream& stream = r.streams[at.stream.value];
     const json::Details details{json::to_text(needed) + " for a frame of class " + std::to_string(q) + " at " + json::quote(r.topology.nodes[at.node].name) + ", whose longest window is " +
@@ -87,7 +86,7 @@ void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
                                 "a window that holds the longest frame"};
     if (shut == at.classes) diagnostics.error(stream.where.place(), "a frame that no gate window lets pass", details);
     else diagnostics.warning(stream.where.place(), "frames that no gate window lets pass, when their stream gate puts them into that class", details);
-  }
+  });
 }
 
 }  // namespace takt::scenario

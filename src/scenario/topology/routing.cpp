@@ -8,23 +8,45 @@ constexpr std::uint32_t nowhere = 0xFFFF'FFFF;
 constexpr std::size_t most_tree_entries = 50'000'000;
 }
 
+Router::Router(const Topology& topology) : topology_(topology), spots_(topology.nodes.size(), nowhere) {
+  for (std::uint32_t node = 0; node < topology.nodes.size(); ++node) {
+    if (!topology.nodes[node].forwards()) continue;
+    spots_[node] = static_cast<Spot>(forwarders_.size());
+    forwarders_.push_back(node);
+  }
+  onward_.resize(forwarders_.size());
+  for (Spot spot = 0; spot < forwarders_.size(); ++spot)
+    for (const Neighbour& neighbour : topology.neighbours[forwarders_[spot]])
+      if (spots_[neighbour.node] != nowhere) onward_[spot].push_back(spots_[neighbour.node]);
+}
+
+Router::Spot Router::spot_of(std::uint32_t node, std::uint32_t root) const {
+  if (spots_[node] != nowhere) return spots_[node];
+  return node == root ? static_cast<Spot>(forwarders_.size()) : nowhere;
+}
+
 const Router::Tree& Router::tree_of(std::uint32_t root) {
   // Trees are kept for the next stream with the same root, but not without bound.
-  if (trees_.size() * topology_.nodes.size() > most_tree_entries) trees_.clear();
+  if (trees_.size() * forwarders_.size() > most_tree_entries) trees_.clear();
   auto [at, is_new] = trees_.try_emplace(root);
   Tree& tree = at->second;
   if (!is_new) return tree;
-  tree.assign(topology_.nodes.size(), {nowhere, 0});
-  tree[root] = {root, 0};
-  std::vector<std::uint32_t> reached{root};
-  for (std::size_t next = 0; next < reached.size(); ++next) {
-    const std::uint32_t node = reached[next];
-    for (const Neighbour& neighbour : topology_.neighbours[node]) {
-      if (tree[neighbour.node].parent != nowhere || !topology_.nodes[neighbour.node].forwards()) continue;
-      tree[neighbour.node] = {node, tree[node].depth + 1};
-      reached.push_back(neighbour.node);
-    }
-  }
+  tree.assign(forwarders_.size() + 1, {nowhere, 0});
+  const Spot first = spot_of(root, root);
+  tree[first] = {first, 0};
+  std::vector<Spot> reached{first};
+  reached.reserve(tree.size());
+  const auto reach = [&](Spot to, Spot from) {
+    if (tree[to].parent != nowhere) return;
+    tree[to] = {from, tree[from].depth + 1};
+    reached.push_back(to);
+  };
+  if (first == forwarders_.size())
+    for (const Neighbour& neighbour : topology_.neighbours[root])
+      if (spots_[neighbour.node] != nowhere) reach(spots_[neighbour.node], first);
+  for (std::size_t next = 0; next < reached.size(); ++next)
+    if (reached[next] < forwarders_.size())
+      for (const Spot neighbour : onward_[reached[next]]) reach(neighbour, reached[next]);
   return tree;
 }
 
@@ -38,19 +60,22 @@ std::uint32_t Router::start_of(std::uint32_t end) const {
 std::optional<Path> Router::between(std::uint32_t root, std::uint32_t leaf) {
   const std::uint32_t start = start_of(root);
   const Tree& tree = tree_of(start);
-  std::uint32_t last = nowhere;   // of the tree
-  if (topology_.nodes[leaf].forwards()) {
-    last = leaf;
+  const auto is_reached = [&](Spot spot) { return spot != nowhere && tree[spot].parent != nowhere; };
+  Spot last = nowhere;   // of the tree
+  if (spots_[leaf] != nowhere) {
+    last = spots_[leaf];
   } else {
-    for (const Neighbour& neighbour : topology_.neighbours[leaf])
-      if (tree[neighbour.node].parent != nowhere && (last == nowhere || tree[neighbour.node].depth < tree[last].depth)) last = neighbour.node;
+    for (const Neighbour& neighbour : topology_.neighbours[leaf]) {
+      const Spot spot = spot_of(neighbour.node, start);
+      if (is_reached(spot) && (last == nowhere || tree[spot].depth < tree[last].depth)) last = spot;
+    }
   }
-  if (last == nowhere || tree[last].parent == nowhere) return std::nullopt;
+  if (!is_reached(last)) return std::nullopt;
   Path path;
-  if (last != leaf) path.push_back(leaf);
-  for (std::uint32_t at = last;; at = tree[at].parent) {
-    path.push_back(at);
-    if (at == start) break;
+  if (spots_[leaf] == nowhere) path.push_back(leaf);
+  for (Spot at = last;; at = tree[at].parent) {
+    path.push_back(at < forwarders_.size() ? forwarders_[at] : start);
+    if (tree[at].parent == at) break;
   }
   if (start != root) path.push_back(root);
   return path;

@@ -17,7 +17,8 @@ using Path = std::vector<std::uint32_t>;
 /// written (or generated) earlier, near the root of the search; so it is the same in every run and on every machine.
 class Router {
  public:
-  explicit Router(const Topology& topology) : topology_(topology) {}
+  /// The topology has to stay as it is.
+  explicit Router(const Topology& topology);
 
   /// The path that the filtering database takes for the unicast address of `to`: for one destination all paths form a tree.
   std::optional<Path> to_host(std::uint32_t from, std::uint32_t to);
@@ -25,17 +26,23 @@ class Router {
   std::optional<Path> from_host(std::uint32_t from, std::uint32_t to);
 
  private:
+  /// Where a node is in a tree: those that forward are numbered on their own, since most nodes of a plant are ends; behind them is the root, if it is an end.
+  using Spot = std::uint32_t;
   struct Branch {
-    std::uint32_t parent = 0;
+    Spot parent = 0;
     std::uint32_t depth = 0;
   };
-  using Tree = std::vector<Branch>;   // by node
+  using Tree = std::vector<Branch>;   // by spot
   /// The shortest paths from the root to all nodes that forward.
   const Tree& tree_of(std::uint32_t root);
+  Spot spot_of(std::uint32_t node, std::uint32_t root) const;
   std::uint32_t start_of(std::uint32_t end) const;
   std::optional<Path> between(std::uint32_t root, std::uint32_t leaf);
 
   const Topology& topology_;
+  std::vector<Spot> spots_;                    // by node; nowhere: an end
+  std::vector<std::uint32_t> forwarders_;      // by spot
+  std::vector<std::vector<Spot>> onward_;      // by spot: neighbours that forward, in the order of the links
   std::map<std::uint32_t, Tree> trees_;
 };
 

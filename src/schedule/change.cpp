@@ -39,6 +39,11 @@ std::string why_not_changeable(const Problem& problem, const Solution& solution)
 
 Plant::Plant(Problem problem, const Solution& solution)
     : problem_(std::move(problem)), timing_(problem_, solution.timing), periods_(problem_), board_(periods_, problem_.links.size()), routes_(timing_), ways_(problem_.streams.size()), at_(problem_.streams.size()) {
+  // Room for those that come: or the first of them would wait until all others have moved.
+  const std::size_t room = problem_.streams.size() + problem_.streams.size() / 4 + 64;
+  problem_.streams.reserve(room);
+  ways_.reserve(room);
+  at_.reserve(room);
   for (StreamIndex s = 0; s < solution.streams.size(); ++s) {
     if (!solution.streams[s]) continue;
     auto way = make_way(timing_, problem_.streams[s], solution.streams[s]->route);

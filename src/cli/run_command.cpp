@@ -20,6 +20,7 @@
 #include "output/text_report.hpp"
 #include "evaluation/evaluate.hpp"
 #include "scenario/run/divided_run.hpp"
+#include "scenario/run/huge_heap.hpp"
 
 namespace takt::cli {
 namespace {
@@ -99,6 +100,7 @@ bool can_write_files(const RunOptions& options, const output::Recording& recordi
 
 ExitStatus run(const RunOptions& options) {
   if (!can_write({{"--out", options.out, Place::Kind::folder}, {"--report", options.report, Place::Kind::file}}, options.scenario.is_json())) return ExitStatus::bad_input;
+  scenario::put_heap_on_huge_pages();
   const auto resolved = load(options.scenario, options.quiet);
   if (!resolved) return ExitStatus::bad_input;
   json::Diagnostics diagnostics;

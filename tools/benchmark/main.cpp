@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "scenario/run/huge_heap.hpp"
 #include "workloads.hpp"
 
 namespace {
@@ -44,6 +45,7 @@ unsigned number(const char* text) { return static_cast<unsigned>(std::strtoul(te
 }  // namespace
 
 int main(int argc, char** argv) {
+  takt::scenario::put_heap_on_huge_pages();   // as takt run does
   const std::string_view workload = argc > 1 ? argv[1] : "";
   const std::optional<LineVariant> line = line_variant(workload);
   const std::optional<LineFeature> feature = line_feature(workload);

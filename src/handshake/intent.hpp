@@ -54,18 +54,22 @@ constexpr Standing standing_of(std::uint32_t number, std::uint32_t to) {
 }
 
 /// An intent of the group. The default one stands for "nothing was ever asked": number 0, and everybody is Halted.
-/// The order (standing_of) is that of the fields from first to last.
+/// The order (standing_of) is that of number, kind, origin and run.
 struct Intent {
   std::uint32_t number = 0;             ///< 1 more than the greatest number that its origin knew
+  std::uint32_t run = 0;                ///< the run it opens (Start) or belongs to; 0 for Halt
   IntentKind kind = IntentKind::Halt;
   std::uint8_t origin = 0;              ///< participant that raised it: 0 the master, 1..n the slaves
-  std::uint32_t run = 0;                ///< the run it opens (Start) or belongs to; 0 for Halt
 
-  /// As the default one; the two octets are compared as one number.
-  constexpr bool operator==(const Intent& other) const {
-    const auto who = [](const Intent& intent) { return static_cast<std::uint16_t>(static_cast<unsigned>(intent.kind) | static_cast<unsigned>(intent.origin) << 8); };
-    return number == other.number && run == other.run && who(*this) == who(other);
-  }
+  constexpr Intent() = default;
+  constexpr Intent(std::uint32_t of_number, IntentKind of_kind, std::uint8_t by, std::uint32_t in_run) : number(of_number), run(in_run), kind(of_kind), origin(by) {}
+
+  /// As the default one. Nearly every step compares two, so neighbours are compared as one number.
+  constexpr bool operator==(const Intent& other) const { return what() == other.what() && who() == other.who(); }
+
+ private:
+  constexpr std::uint64_t what() const { return number | std::uint64_t{run} << 32; }
+  constexpr std::uint16_t who() const { return static_cast<std::uint16_t>(static_cast<unsigned>(kind) | static_cast<unsigned>(origin) << 8); }
 };
 
 constexpr Standing standing_of(const Intent& intent, const Intent& to) {

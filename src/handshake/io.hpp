@@ -109,11 +109,12 @@ enum class Alarm : std::uint8_t {
 /// What the host has to do after a step, in the order of the fields.
 struct Outputs {
   static constexpr std::size_t max_changes = 3;  ///< Running to Halted to INIT are two
+  static constexpr StateChange unused{0, PublishedState{}, PublishedState{}};   // that all is 0 at first is cheapest, and nearly every step brings nothing else
 
   program::StatusCode status = program::StatusCode::Good;  ///< of a command; Good for every other input
   bool ignored = false;  ///< Received: stale or invalid. Process data of the same message must not be used either
   bool raised = false;   ///< a new intent was raised here: its kind in `raised_kind` (`paper`: the command's)
-  IntentKind raised_kind = IntentKind::Halt;
+  IntentKind raised_kind{};
   Alarm alarm = Alarm::none;
   bool publish = false;               ///< word() differs from before the step
   bool process_stopped = false;       ///< Running was left: stop the process and its data
@@ -122,8 +123,15 @@ struct Outputs {
   bool begin_initialisation = false;
   std::uint32_t initialisation_run = 0;  ///< to hand back with Initialised
   std::uint8_t change_count = 0;
-  std::array<StateChange, max_changes> change{};
+  std::array<StateChange, max_changes> change{unused, unused, unused};
   PeerSet arm_timeout = 0;            ///< peers whose MessageReceiveTimeout starts anew now
+
+  /// Of a word that changes nothing but when the peer was heard last.
+  static constexpr Outputs of_a_word(std::size_t peer) {
+    Outputs outputs;
+    outputs.arm_timeout = PeerSet{1} << peer;
+    return outputs;
+  }
 
   constexpr std::span<const StateChange> changes() const { return {change.data(), change_count}; }
   /// Nothing has come of the step that others could see: neither a transition nor another word nor an intent. So it is of nearly all steps.

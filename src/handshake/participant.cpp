@@ -16,12 +16,12 @@ Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
   // Nearly all steps are these, once a cycle for each peer. (In `paper` no word is in line.)
-  if (input.kind == Input::Kind::received && robust_is_in_line(input)) [[likely]] {
-    if (!robust_says_nothing_new(input)) return robust_follow(input);
-    peers_[input.peer].sequence = input.sequence;
-    Outputs outputs;
-    outputs.arm_timeout = PeerSet{1} << input.peer;
-    return outputs;  // robust_barrier() would not move from here
+  if (input.kind == Input::Kind::received && robust_is_next(input)) [[likely]] {
+    if (robust_says_nothing_new(input)) [[likely]] {
+      peers_[input.peer].sequence = input.sequence;
+      return Outputs::of_a_word(input.peer);  // robust_barrier() would not move from here
+    }
+    if (input.word.incarnation == peers_[input.peer].incarnation) return robust_follow(input);
   }
   return step_at_length(input);
 }
@@ -78,22 +78,24 @@ Outputs Participant<MaxPeers>::take(const Input& input) {
   return outputs;
 }
 
-/// A word behind the last one of the same life of a peer, under the intent that stands here.
+/// A word behind the last one of a peer, under the intent that stands here.
 template <std::size_t MaxPeers>
-inline bool Participant<MaxPeers>::robust_is_in_line(const Input& input) const {
+inline bool Participant<MaxPeers>::robust_is_next(const Input& input) const {
   if (input.word.intent != intent_ || input.peer >= MaxPeers) return false;
   const Peer& peer = peers_[input.peer];   // one that is no peer was never heard
   const auto ahead = static_cast<std::int16_t>(static_cast<std::uint16_t>(input.sequence - peer.sequence));
-  return peer.sequence_known && ahead >= 0 && input.word.incarnation == peer.incarnation;
+  return peer.sequence_known && ahead >= 0;
 }
 
-/// Such a word of which robust_received would note the sequence number only: what the peer said last, and what this participant says itself. So it can be said under this intent:
-/// a peer that has said it under another one, and says so still, is damaged or made up. Whoever is Ready or in INIT may have a barrier to take.
+/// Such a word of which robust_received would note the sequence number only: what the peer said last, in the same life, and what this participant says itself. So it can be said
+/// under this intent: a peer that has said it under another one, and says so still, is damaged or made up. Whoever is Ready or in INIT may have a barrier to take.
 template <std::size_t MaxPeers>
 inline bool Participant<MaxPeers>::robust_says_nothing_new(const Input& input) const {
   const Peer& peer = peers_[input.peer];
   const Word& word = input.word;
-  return machine_.is_just_in(static_cast<program::State>(word.state)) && word.state != PublishedState::Ready && word.state == peer.state && word.run == peer.run && word.run == run_;
+  const auto both = [](std::uint32_t incarnation, std::uint32_t run) { return incarnation | std::uint64_t{run} << 32; };   // neighbours in memory
+  return machine_.is_just_in(static_cast<program::State>(word.state)) && word.state != PublishedState::Ready && word.state == peer.state &&
+         both(word.incarnation, word.run) == both(peer.incarnation, peer.run) && word.run == run_;
 }
 
 /// One that is nested may be Ready already: then the run that it is to be Ready in has waited for the other group.

@@ -147,9 +147,10 @@ class Participant {
   // robust.cpp
   void robust_command(program::Method method, Outputs& outputs);
   void robust_received(const Input& input, Outputs& outputs);
-  bool robust_is_in_line(const Input& input) const;
+  bool robust_is_next(const Input& input) const;
   bool robust_says_nothing_new(const Input& input) const;
   Outputs robust_follow(const Input& input);
+  Outputs robust_take_note(const Input& input);
   Outputs robust_hear(const Input& input);
   void robust_silent(std::size_t peer, Outputs& outputs);
   bool robust_may_start() const;

@@ -126,15 +126,19 @@ Outputs Participant<MaxPeers>::robust_hear(const Input& input) {
   return outputs;
 }
 
-/// The same of a word that is in line, shorter: its intent is the one here, which is valid, and it is fresh. An alarm is left to the long way.
+/// The same of the next word of a peer's present life, shorter: its intent is the one here, which is valid, and it is fresh. An alarm is left to the long way.
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::robust_follow(const Input& input) {
   const Word& word = input.word;
-  Outputs outputs;
-  if (!may_hold(word.intent, word.state, word.run) || counted_without_me(input.peer, word) || ran_without_me(word)) [[unlikely]] {
-    outputs = robust_hear(input);
-    return outputs;
-  }
+  if (!may_hold(word.intent, word.state, word.run) || counted_without_me(input.peer, word) || ran_without_me(word)) [[unlikely]]
+    return robust_hear(input);
+  return robust_take_note(input);
+}
+
+template <std::size_t MaxPeers>
+inline Outputs Participant<MaxPeers>::robust_take_note(const Input& input) {
+  Outputs outputs = Outputs::of_a_word(input.peer);
+  const Word& word = input.word;
   Peer& peer = peers_[input.peer];
   peer.sequence = input.sequence;
   if (word.state != peer.state || word.run != peer.run) {
@@ -142,9 +146,9 @@ Outputs Participant<MaxPeers>::robust_follow(const Input& input) {
     peer.state = word.state;
     sort_peer(input.peer);
   }
-  outputs.arm_timeout = PeerSet{1} << input.peer;
+  if (!is_in_barrier()) return outputs;
   const std::uint32_t run_before = run_;
-  if (is_in_barrier()) robust_barrier(outputs);
+  robust_barrier(outputs);
   outputs.publish = outputs.change_count > 0 || run_ != run_before;
   check_word(outputs);
   return outputs;
@@ -181,13 +185,13 @@ bool Participant<MaxPeers>::supersedes(const Intent& intent, std::size_t peer) c
 /// The master has taken me into the barrier of a run in which I have never been: I must have lost my memory since.
 template <std::size_t MaxPeers>
 bool Participant<MaxPeers>::counted_without_me(std::size_t peer, const Word& word) const {
-  return !is_master() && peer == 0 && word.intent.kind == IntentKind::Start && word.run == word.intent.run && word.run != run_;
+  return word.run != run_ && word.intent.kind == IntentKind::Start && !is_master() && peer == 0 && word.run == word.intent.run;
 }
 
 /// A slave runs in a run in which I have never been Ready: somebody has told it that I am.
 template <std::size_t MaxPeers>
 bool Participant<MaxPeers>::ran_without_me(const Word& word) const {
-  return is_master() && word.intent.kind == IntentKind::Start && word.state == running && word.run != run_;
+  return word.run != run_ && word.intent.kind == IntentKind::Start && is_master() && word.state == running;
 }
 
 template <std::size_t MaxPeers>
@@ -214,10 +218,9 @@ template <std::size_t MaxPeers>
 void Participant<MaxPeers>::raise(IntentKind kind, std::uint32_t above, Outputs& outputs) {
   const std::uint32_t number = next_number(above);
   const std::uint32_t run = kind == IntentKind::Start ? run_of(config_.incarnation, number) : kind == IntentKind::Halt ? 0 : run_;
-  const Intent made{number, kind, config_.index, run};
-  outputs.publish = outputs.publish || made != intent_;
   const bool is_another_run = run != intent_.run;
-  intent_ = made;
+  intent_ = Intent{number, kind, config_.index, run};
+  outputs.publish = true;   // the number is another one
   if (is_another_run) sort_all_peers();
   outputs.raised = true;
   outputs.raised_kind = kind;

@@ -53,9 +53,12 @@ enum class Variant : std::uint8_t { paper, robust };
 
 struct Word {
   std::uint32_t incarnation = 0;                 ///< of the sender; another one after each restart, none used twice
+  std::uint32_t run = 0;                         ///< in which the sender is, or was, Ready; 0 if none
   PublishedState state = PublishedState::Halted;
   Intent intent;                                 ///< the greatest that the sender knows
-  std::uint32_t run = 0;                         ///< in which the sender is, or was, Ready; 0 if none
+
+  constexpr Word() = default;
+  constexpr Word(std::uint32_t of_incarnation, PublishedState in_state, const Intent& of_intent, std::uint32_t in_run) : incarnation(of_incarnation), run(in_run), state(in_state), intent(of_intent) {}
 
   constexpr bool operator==(const Word&) const = default;
 };

@@ -31,7 +31,7 @@ inline constexpr std::array<StateInfo, 4> states{{
 constexpr std::uint8_t number_of(State state) { return static_cast<std::uint8_t>(state); }
 /// Position in `states`, 0 to 3. The state must be one of the four.
 constexpr std::size_t index_of(State state) {
-  return static_cast<std::size_t>(number_of(state) - number_of(State::Halted));
+  return std::size_t{number_of(state)} - number_of(State::Halted);
 }
 constexpr const StateInfo& info(State state) { return states[index_of(state)]; }
 constexpr std::string_view name_of(State state) { return info(state).name; }

@@ -44,6 +44,16 @@ TEST(Demand, MulticastCountsOncePerLink) {
   EXPECT_EQ(r->ports.size(), 5u);
 }
 
+// Ports may have any numbers: those between that have no link carry nothing and are not told of.
+TEST(Demand, PortsWithoutALinkAreNone) {
+  const auto r = sound(R"({"name": "t", "duration": "1ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch"}},
+ "links": [{"ends": ["a", "sw:9"]}, {"ends": ["sw:3", "b"]}]},
+ "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "10us"}]})");
+  EXPECT_EQ(r->ports.size(), 2u);
+  EXPECT_EQ(port(*r, "sw", "b").port, 3);
+  EXPECT_DOUBLE_EQ(port(*r, "sw", "b").share(), 0.1328);
+}
+
 // Gaps cut off at their mean, 1 ms, have the mean of half a normal distribution: sqrt(2 / pi) deviations of 1 ms above it. 166 octets on the wire each.
 TEST(Demand, RandomGapsOnAverage) {
   const auto r = sound(over_one_switch(R"(, "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "normal": {"mean": "1ms", "deviation": "1ms", "min": "1ms"}}])"));

@@ -15,7 +15,7 @@ Participant<MaxPeers>::Participant(const Config& config) : config_(config) {
 
 template <std::size_t MaxPeers>
 Outputs Participant<MaxPeers>::step(const Input& input) {
-  // Nearly all steps are these, once a cycle for each peer. (In `paper` no word is in line.)
+  // Nearly all steps are these, once a cycle for each peer. (In `paper` no word is the next: sequence numbers are not noted.)
   if (input.kind == Input::Kind::received && robust_is_next(input)) [[likely]] {
     if (robust_says_nothing_new(input)) [[likely]] {
       peers_[input.peer].sequence = input.sequence;

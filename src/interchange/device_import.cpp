@@ -26,9 +26,9 @@ const Egress* entry_for(const scenario::NodePorts& ports, const std::string& pee
   return chosen;
 }
 
-class Builder {
+class DeviceBuilder {
  public:
-  Builder(scenario::Scenario& scenario, json::Diagnostics& diagnostics) : scenario_(scenario), diagnostics_(diagnostics) {}
+  DeviceBuilder(scenario::Scenario& scenario, json::Diagnostics& diagnostics) : scenario_(scenario), diagnostics_(diagnostics) {}
 
   /// A network of its own: a host at each port.
   void add_to_nothing(const ImportedDevice& device) {
@@ -301,7 +301,7 @@ void build_scenario(std::vector<ImportedDevice> devices, const ImportRequest& re
     scenario.name = devices.size() == 1 ? devices.front().name : "imported";
     scenario.duration = sim::Duration::from_ps(100'000'000'000);
   }
-  Builder builder(scenario, diagnostics);
+  DeviceBuilder builder(scenario, diagnostics);
   std::optional<scenario::Topology> topology;
   if (request.base != nullptr) {
     topology = scenario::build_topology(request.base->network, diagnostics);

@@ -61,9 +61,9 @@ std::vector<Row> rows_of(const InputFile& file, json::Diagnostics& diagnostics) 
   return rows;
 }
 
-class Reader {
+class StreamsReader {
  public:
-  Reader(json::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  StreamsReader(json::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   void read(const InputFile& file, std::vector<scenario::Stream>& streams) {
     const std::vector<Row> rows = rows_of(file, diagnostics_);
@@ -77,15 +77,15 @@ class Reader {
   struct Column {
     std::string_view name;
     bool is_required;
-    void (*set)(Reader& reader, const Cell& cell, scenario::Stream& stream);
+    void (*set)(StreamsReader& reader, const Cell& cell, scenario::Stream& stream);
   };
 
   static const std::vector<Column>& columns() {
     using scenario::Stream;
     static const std::vector<Column> all = {
-        {"name", true, [](Reader&, const Cell& cell, Stream& s) { s.name = cell.text; }},
-        {"from", true, [](Reader&, const Cell& cell, Stream& s) { s.from = cell.text; }},
-        {"to", true, [](Reader&, const Cell& cell, Stream& s) {
+        {"name", true, [](StreamsReader&, const Cell& cell, Stream& s) { s.name = cell.text; }},
+        {"from", true, [](StreamsReader&, const Cell& cell, Stream& s) { s.from = cell.text; }},
+        {"to", true, [](StreamsReader&, const Cell& cell, Stream& s) {
            std::string_view rest = cell.text;   // several with semicolons between
            while (!rest.empty()) {
              const std::size_t end = rest.find(';');
@@ -93,20 +93,20 @@ class Reader {
              rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
            }
          }},
-        {"payload", true, [](Reader& r, const Cell& cell, Stream& s) { s.payload = sim::Octets{static_cast<std::uint32_t>(r.number(cell, 1, 1500, "octets from 1 to 1500"))}; }},
-        {"every", true, [](Reader& r, const Cell& cell, Stream& s) { s.every = r.duration(cell); }},
-        {"offset", false, [](Reader& r, const Cell& cell, Stream& s) {
+        {"payload", true, [](StreamsReader& r, const Cell& cell, Stream& s) { s.payload = sim::Octets{static_cast<std::uint32_t>(r.number(cell, 1, 1500, "octets from 1 to 1500"))}; }},
+        {"every", true, [](StreamsReader& r, const Cell& cell, Stream& s) { s.every = r.duration(cell); }},
+        {"offset", false, [](StreamsReader& r, const Cell& cell, Stream& s) {
            if (cell.text == "auto") s.offset.emplace().is_auto = true;
            else s.offset = json::OrAuto<sim::Duration>(r.duration(cell));
          }},
-        {"jitter", false, [](Reader& r, const Cell& cell, Stream& s) { s.jitter = r.duration(cell); }},
-        {"pcp", false, [](Reader& r, const Cell& cell, Stream& s) { s.pcp = static_cast<std::uint8_t>(r.number(cell, 0, 7, "a priority from 0 to 7")); }},
-        {"vlan", false, [](Reader& r, const Cell& cell, Stream& s) { s.vlan = static_cast<std::uint16_t>(r.number(cell, 0, 4094, "a VLAN from 0 to 4094")); }},
-        {"encapsulation", false, [](Reader& r, const Cell& cell, Stream& s) {
+        {"jitter", false, [](StreamsReader& r, const Cell& cell, Stream& s) { s.jitter = r.duration(cell); }},
+        {"pcp", false, [](StreamsReader& r, const Cell& cell, Stream& s) { s.pcp = static_cast<std::uint8_t>(r.number(cell, 0, 7, "a priority from 0 to 7")); }},
+        {"vlan", false, [](StreamsReader& r, const Cell& cell, Stream& s) { s.vlan = static_cast<std::uint16_t>(r.number(cell, 0, 4094, "a VLAN from 0 to 4094")); }},
+        {"encapsulation", false, [](StreamsReader& r, const Cell& cell, Stream& s) {
            if (cell.text == "ethernet") s.encapsulation = scenario::Encapsulation::ethernet;
            else if (cell.text != "udp") r.refuse(cell, "not an encapsulation", "udp or ethernet");
          }},
-        {"latency", false, [](Reader& r, const Cell& cell, Stream& s) { r.latencies.emplace_back(s.name, r.duration(cell)); }},
+        {"latency", false, [](StreamsReader& r, const Cell& cell, Stream& s) { r.latencies.emplace_back(s.name, r.duration(cell)); }},
     };
     return all;
   }
@@ -177,7 +177,7 @@ Imported import_csv(const ImportRequest& request, json::Diagnostics& diagnostics
     scenario.duration = sim::Duration::from_ps(100'000'000'000);
   }
   std::vector<scenario::Stream> streams = scenario.streams;
-  Reader reader(diagnostics);
+  StreamsReader reader(diagnostics);
   for (const InputFile& file : request.files) reader.read(file, streams);
   if (diagnostics.has_errors()) return imported;
   // Without a network: the hosts that are named, at one switch.

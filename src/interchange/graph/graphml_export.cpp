@@ -2,23 +2,10 @@
 #include <fmt/format.h>
 
 #include "interchange/graph/graph.hpp"
+#include "interchange/xml/xml.hpp"
 #include "json/quantity.hpp"
 
 namespace takt::interchange {
-namespace {
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '"') result += "&quot;";
-    else result += c;
-  }
-  return result;
-}
-
-}  // namespace
 
 Exported export_graphml(const ExportRequest& request) {
   const scenario::Resolved& r = request.resolved;
@@ -27,16 +14,16 @@ Exported export_graphml(const ExportRequest& request) {
       "  <key id=\"kind\" for=\"node\" attr.name=\"kind\" attr.type=\"string\"/>\n  <key id=\"forwarding_delay\" for=\"node\" attr.name=\"forwarding_delay\" attr.type=\"string\"/>\n"
       "  <key id=\"rate\" for=\"edge\" attr.name=\"rate\" attr.type=\"string\"/>\n  <key id=\"delay\" for=\"edge\" attr.name=\"delay\" attr.type=\"string\"/>\n"
       "  <key id=\"source_port\" for=\"edge\" attr.name=\"source_port\" attr.type=\"int\"/>\n  <key id=\"target_port\" for=\"edge\" attr.name=\"target_port\" attr.type=\"int\"/>\n";
-  text += fmt::format("  <graph id=\"{}\" edgedefault=\"undirected\">\n", escaped(r.scenario.name));
+  text += fmt::format("  <graph id=\"{}\" edgedefault=\"undirected\">\n", xml_escaped(r.scenario.name));
   constexpr const char* kinds[] = {"host", "switch", "station"};
   for (const models::NodePlan& node : r.plan.nodes) {
-    text += fmt::format("    <node id=\"{}\"><data key=\"kind\">{}</data>", escaped(node.name), kinds[static_cast<std::size_t>(node.kind)]);
+    text += fmt::format("    <node id=\"{}\"><data key=\"kind\">{}</data>", xml_escaped(node.name), kinds[static_cast<std::size_t>(node.kind)]);
     if (node.forwards()) text += fmt::format("<data key=\"forwarding_delay\">{}</data>", json::to_text(node.forwarding_delay));
     text += "</node>\n";
   }
   for (const models::LinkPlan& link : r.plan.links)
     text += fmt::format("    <edge source=\"{}\" target=\"{}\"><data key=\"rate\">{}</data><data key=\"delay\">{}</data><data key=\"source_port\">{}</data><data key=\"target_port\">{}</data></edge>\n",
-                        escaped(r.plan.nodes[link.a.node.value].name), escaped(r.plan.nodes[link.b.node.value].name), json::to_text(link.rate), json::to_text(link.delay), link.a.port, link.b.port);
+                        xml_escaped(r.plan.nodes[link.a.node.value].name), xml_escaped(r.plan.nodes[link.b.node.value].name), json::to_text(link.rate), json::to_text(link.delay), link.a.port, link.b.port);
   Exported exported;
   exported.files.push_back({r.scenario.name + ".graphml", text + "  </graph>\n</graphml>\n"});
   return exported;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view graphml = "http://graphml.graphdrawing.org/xmlns";
 
-constexpr SettingInfo settings[] = {
+constexpr SettingInfo graphml_import_table[] = {
     {"kind", "the name of a key", "kind", "of nodes: host, switch or station"},
     {"rate", "the name of a key", "rate", "of edges: a rate (1Gbps), or a number in rate-unit"},
     {"rate-unit", "bps|kbps|Mbps|Gbps", "Mbps", "of rates that are plain numbers"},
@@ -23,9 +23,9 @@ constexpr SettingInfo settings[] = {
     {"length", "the name of a key", "length", "of edges: the length (10m), if there is no delay"},
 };
 
-class Reader {
+class GraphmlReader {
  public:
-  Reader(const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics) : settings_(request.settings), imported_(imported), diagnostics_(diagnostics) {}
+  GraphmlReader(const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics) : settings_(request.settings), imported_(imported), diagnostics_(diagnostics) {}
 
   void read(const XmlElement& root, scenario::Scenario& scenario) {
     for (const XmlElement& key : root.children)
@@ -137,7 +137,7 @@ class Reader {
 
 }  // namespace
 
-const std::span<const SettingInfo> graphml_import_settings = settings;
+const std::span<const SettingInfo> graphml_import_settings = graphml_import_table;
 
 Imported import_graphml(const ImportRequest& request, json::Diagnostics& diagnostics) {
   Imported imported;
@@ -149,7 +149,7 @@ Imported import_graphml(const ImportRequest& request, json::Diagnostics& diagnos
     if (elements->empty()) diagnostics.error({file.name, 1, 1, ""}, "not GraphML", {"nothing", "graphml"});
     for (const XmlElement& element : *elements) {
       if (element.name != "graphml" || (!element.name_space.empty() && element.name_space != graphml)) diagnostics.error(element.place, "not GraphML", {json::quote(element.name), "graphml"});
-      else Reader(request, imported, diagnostics).read(element, scenario);
+      else GraphmlReader(request, imported, diagnostics).read(element, scenario);
     }
   }
   if (scenario.name.empty()) scenario.name = "graph";

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "interchange/graph/graph.hpp"
+#include "interchange/xml/xml.hpp"
 #include "json/quantity.hpp"
 
 namespace takt::interchange {
@@ -15,16 +16,6 @@ namespace {
 struct Point {
   double x = 0, y = 0;
 };
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else result += c;
-  }
-  return result;
-}
 
 /// Nodes that forward, neighbours after each other where that can be.
 std::vector<std::uint32_t> walk_of(const scenario::Topology& topology) {
@@ -78,19 +69,19 @@ Exported export_svg(const ExportRequest& request) {
     most = {std::max(most.x, point.x), std::max(most.y, point.y)};
   }
   std::string text = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.0f} {:.0f} {:.0f} {:.0f}\" font-family=\"sans-serif\" font-size=\"12\" text-anchor=\"middle\">\n<title>{}</title>\n", least.x - 70, least.y - 40,
-                                 most.x - least.x + 140, most.y - least.y + 80, escaped(r.scenario.name));
+                                 most.x - least.x + 140, most.y - least.y + 80, xml_escaped(r.scenario.name));
   for (const models::LinkPlan& link : r.plan.links) {
     const Point a = at[link.a.node.value], b = at[link.b.node.value];
     const double width = link.rate.bits_per_second >= 10'000'000'000 ? 4 : link.rate.bits_per_second >= 1'000'000'000 ? 2 : 1;
-    text += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#667\" stroke-width=\"{}\"><title>{}:{} to {}:{}, {}, {}</title></line>\n", a.x, a.y, b.x, b.y, width, escaped(r.plan.nodes[link.a.node.value].name),
-                        link.a.port, escaped(r.plan.nodes[link.b.node.value].name), link.b.port, json::to_text(link.rate), json::to_text(link.delay));
+    text += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#667\" stroke-width=\"{}\"><title>{}:{} to {}:{}, {}, {}</title></line>\n", a.x, a.y, b.x, b.y, width, xml_escaped(r.plan.nodes[link.a.node.value].name),
+                        link.a.port, xml_escaped(r.plan.nodes[link.b.node.value].name), link.b.port, json::to_text(link.rate), json::to_text(link.delay));
   }
   for (std::size_t n = 0; n < at.size(); ++n) {
     const models::NodePlan& node = r.plan.nodes[n];
     const double half = std::max(22.0, 4.0 * static_cast<double>(node.name.size()));
     const char* const fill = node.kind == models::NodeKind::host ? "#e8f1fb" : node.kind == models::NodeKind::bridge ? "#fdf3dc" : "#e6f5e6";
     text += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"24\" rx=\"{}\" fill=\"{}\" stroke=\"#334\"/>\n<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", at[n].x - half, at[n].y - 12, 2 * half,
-                        node.kind == models::NodeKind::bridge ? 2 : 12, fill, at[n].x, at[n].y + 4, escaped(node.name));
+                        node.kind == models::NodeKind::bridge ? 2 : 12, fill, at[n].x, at[n].y + 4, xml_escaped(node.name));
   }
   Exported exported;
   exported.files.push_back({r.scenario.name + ".svg", text + "</svg>\n"});

@@ -21,9 +21,9 @@ std::string takt_unit(std::string text) {
   return text;
 }
 
-class Reader {
+class InetReader {
  public:
-  Reader(const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics) : request_(request), imported_(imported), diagnostics_(diagnostics) {}
+  InetReader(const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics) : request_(request), imported_(imported), diagnostics_(diagnostics) {}
 
   void run() {
     std::vector<Network> networks;
@@ -478,16 +478,16 @@ class Reader {
   std::map<std::uint64_t, Redundant> redundant_;                        // by UDP port
 };
 
-constexpr SettingInfo settings[] = {{"config", "the name of a section", "General", "of the ini file: that section and what it extends"}};
+constexpr SettingInfo inet_import_table[] = {{"config", "the name of a section", "General", "of the ini file: that section and what it extends"}};
 
 }  // namespace
 }  // namespace inet
 
-const std::span<const SettingInfo> inet_import_settings = inet::settings;
+const std::span<const SettingInfo> inet_import_settings = inet::inet_import_table;
 
 Imported import_inet(const ImportRequest& request, json::Diagnostics& diagnostics) {
   Imported imported;
-  inet::Reader(request, imported, diagnostics).run();
+  inet::InetReader(request, imported, diagnostics).run();
   return imported;
 }
 

@@ -19,7 +19,7 @@ namespace {
 using models::TrafficClass;
 using sim::Duration;
 
-constexpr SettingInfo settings[] = {
+constexpr SettingInfo linux_export_table[] = {
     {"gates", "hardware|txtime-assist|software", "hardware", "who works the gates of taprio: the interface, launch times that the kernel works out, or the kernel"},
     {"start", "a whole number of ns", "0", "is added to each base time: when the run begins, by the clock of the interfaces"},
     {"txtime-delay", "a whole number of ns", "300000", "of gates=txtime-assist"},
@@ -333,7 +333,7 @@ void lose_of_others(const scenario::Resolved& resolved, Exported& exported) {
 
 }  // namespace
 
-const std::span<const SettingInfo> linux_export_settings = settings;
+const std::span<const SettingInfo> linux_export_settings = linux_export_table;
 
 Exported export_linux(const ExportRequest& request) {
   Exported exported;

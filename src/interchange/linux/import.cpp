@@ -8,7 +8,7 @@
 namespace takt::interchange {
 namespace {
 
-constexpr SettingInfo settings[] = {
+constexpr SettingInfo linux_import_table[] = {
     {"rate", "a rate such as 1Gbps", "1Gbps", "of ports that no shaper and no base says it of; the shortest interval of a gate list follows from it"},
     {"never-open", "refuse|accept", "refuse", "gate lists that never open a class: usually a mistake"},
     {"queues", "a whole number", "8", "transmit queues of the interfaces"},
@@ -16,7 +16,7 @@ constexpr SettingInfo settings[] = {
 
 }  // namespace
 
-const std::span<const SettingInfo> linux_import_settings = settings;
+const std::span<const SettingInfo> linux_import_settings = linux_import_table;
 
 Imported import_linux(const ImportRequest& request, json::Diagnostics& diagnostics) {
   Imported imported;

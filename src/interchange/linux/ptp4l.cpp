@@ -94,9 +94,9 @@ std::optional<double> number(std::string_view text, ValueKind kind) {
   return error == std::errc() && !text.empty() && stop == text.data() + text.size() ? std::optional(static_cast<double>(value)) : std::nullopt;
 }
 
-class Reader {
+class Ptp4lReader {
  public:
-  Reader(const InputFile& file, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) : file_(file), device_(device), imported_(imported), diagnostics_(diagnostics) {}
+  Ptp4lReader(const InputFile& file, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) : file_(file), device_(device), imported_(imported), diagnostics_(diagnostics) {}
 
   void run() {
     std::string_view rest = file_.text;
@@ -179,7 +179,7 @@ class Reader {
 
 }  // namespace
 
-void read_ptp4l(const InputFile& file, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) { Reader(file, device, imported, diagnostics).run(); }
+void read_ptp4l(const InputFile& file, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) { Ptp4lReader(file, device, imported, diagnostics).run(); }
 
 std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Device& device, Exported& exported) {
   std::vector<Ptp4lFile> files;

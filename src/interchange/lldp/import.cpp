@@ -28,9 +28,9 @@ struct Machine {
   std::vector<Sight> sights;
 };
 
-class Reader {
+class LldpReader {
  public:
-  Reader(Imported& imported, json::Diagnostics& diagnostics) : imported_(imported), diagnostics_(diagnostics) {}
+  LldpReader(Imported& imported, json::Diagnostics& diagnostics) : imported_(imported), diagnostics_(diagnostics) {}
 
   void read(const InputFile& file) {
     const auto document = json::parse(file.text, file.name, diagnostics_);
@@ -265,7 +265,7 @@ class Joiner {
 
 Imported import_lldp(const ImportRequest& request, json::Diagnostics& diagnostics) {
   Imported imported;
-  Reader reader(imported, diagnostics);
+  LldpReader reader(imported, diagnostics);
   for (const InputFile& file : request.files) reader.read(file);
   if (diagnostics.has_errors()) return imported;
   scenario::Scenario scenario = Joiner(reader.machines, imported).run();

@@ -130,9 +130,9 @@ class Capture {
   std::size_t others_ = 0;
 };
 
-class Builder {
+class CaptureBuilder {
  public:
-  Builder(const ImportRequest& request, const Names& names, Imported& imported) : names_(names), imported_(imported) {
+  CaptureBuilder(const ImportRequest& request, const Names& names, Imported& imported) : names_(names), imported_(imported) {
     if (request.base != nullptr) scenario_ = *request.base;
     has_base_ = request.base != nullptr;
   }
@@ -256,7 +256,7 @@ Imported import_pcap(const ImportRequest& request, json::Diagnostics& diagnostic
       begin = std::min(begin, *std::ranges::min_element(flow.times_ns));
       end = std::max(end, *std::ranges::max_element(flow.times_ns));
     }
-  Builder builder(request, names, imported);
+  CaptureBuilder builder(request, names, imported);
   for (const auto& [file, flows] : captures) builder.add(file->name, flows, begin);
   const Duration length = Duration::from_ps(std::clamp<std::int64_t>(end - begin, 1'000'000, 3'600'000'000'000) * 1000);
   imported.scenario = builder.take(captures.front().first->device, length);

@@ -129,4 +129,18 @@ const XmlAttribute* XmlElement::attribute(std::string_view which) const {
 
 std::optional<std::vector<XmlElement>> parse_xml(std::string_view text, const std::string& file, json::Diagnostics& diagnostics) { return Parser(text, file, diagnostics).run(); }
 
+std::string xml_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&': escaped += "&amp;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      case '"': escaped += "&quot;"; break;
+      default: escaped += c;
+    }
+  }
+  return escaped;
+}
+
 }  // namespace takt::interchange

@@ -35,4 +35,7 @@ inline constexpr std::size_t max_xml_elements = std::size_t{1} << 20;
 /// diagnostic.
 std::optional<std::vector<XmlElement>> parse_xml(std::string_view text, const std::string& file, json::Diagnostics& diagnostics);
 
+/// The text with &, <, > and " as entities: for character data and for values of attributes in double quotes.
+std::string xml_escaped(std::string_view text);
+
 }  // namespace takt::interchange

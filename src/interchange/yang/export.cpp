@@ -321,7 +321,7 @@ Limits read_limits(const std::string& files, std::string& mistake) {
   return limits;
 }
 
-constexpr SettingInfo settings[] = {
+constexpr SettingInfo yang_export_table[] = {
     {"dialect", "published|2018", "published", "the modules: 802.1Qcw-2023 and its relatives, or the drafts of 2018 that most devices speak"},
     {"encoding", "json|xml", "json", "of the files"},
     {"start", "a whole number of ns", "0", "is added to each base time: when the run begins, since the PTP epoch"},
@@ -331,7 +331,7 @@ constexpr SettingInfo settings[] = {
 }  // namespace
 }  // namespace yang
 
-const std::span<const SettingInfo> yang_export_settings = yang::settings;
+const std::span<const SettingInfo> yang_export_settings = yang::yang_export_table;
 
 Exported export_yang(const ExportRequest& request) {
   Exported exported;

@@ -1,6 +1,7 @@
 // Data to JSON (RFC 7951) and XML.
 #include <algorithm>
 
+#include "interchange/xml/xml.hpp"
 #include "interchange/yang/data.hpp"
 #include "json/node.hpp"
 
@@ -37,17 +38,6 @@ json::Node object_of(const Data& data) {
   return object;
 }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else result += c;
-  }
-  return result;
-}
-
 void write_element(const Data& data, std::string_view outer_module, std::size_t depth, std::string& text) {
   const Schema& schema = *data.schema;
   const std::string indent(2 * depth, ' ');
@@ -77,7 +67,7 @@ void write_element(const Data& data, std::string_view outer_module, std::size_t 
     text += " xmlns:id=\"" + std::string(namespace_of(value.substr(0, colon))) + "\"";
     value = "id" + value.substr(colon);
   }
-  text += ">" + escaped(value) + "</" + std::string(schema.name) + ">\n";
+  text += ">" + xml_escaped(value) + "</" + std::string(schema.name) + ">\n";
 }
 
 }  // namespace

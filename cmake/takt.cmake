@@ -129,8 +129,8 @@ function(takt_test name)
   endif()
   add_test(NAME ${name} COMMAND ${name})
   if(rapidcheck IN_LIST ARG_LINKS)
-    # The same cases in every run; RC_PARAMS="max_success=10000" and no seed, without ctest, try harder.
-    set_tests_properties(${name} PROPERTIES ENVIRONMENT "RC_PARAMS=seed=2026")
+    # The same cases in every run. How many is what RC_PARAMS says before (tools/test, docs/testing.md).
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT_MODIFICATION "RC_PARAMS=string_append: seed=2026")
   endif()
 endfunction()
 
@@ -141,14 +141,23 @@ function(takt_test_support name)
   endif()
 endfunction()
 
-# takt_mutants(NAME TABLE [LABELS label] OPTION...): the mutants of a table are killed by what it says. They are compiled and linked by the commands of this build.
-function(takt_mutants name table)
-  cmake_parse_arguments(ARG "" "LABELS" "" ${ARGN})
+# takt_tier(TIER TEST...): these tests belong to the tier "full" or "night" of tools/test. A test without a tier is in all of them.
+function(takt_tier tier)
+  if(NOT tier MATCHES "^(full|night)$")
+    message(FATAL_ERROR "takt_tier: expected full or night, found ${tier}")
+  endif()
+  set_property(TEST ${ARGN} APPEND PROPERTY LABELS ${tier})
+endfunction()
+
+# takt_mutants(NAME TABLE SAMPLE OPTION...): the mutants of a table are killed by the tests that it names; SAMPLE of them, at night all.
+# They are compiled and linked by the commands of this build.
+function(takt_mutants name table sample)
   if(NOT TAKT_TESTS OR TAKT_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL "Release" OR NOT CMAKE_GENERATOR STREQUAL "Ninja")
     return()
   endif()
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/mutation/mutants.py --build ${PROJECT_BINARY_DIR} --ninja ${CMAKE_MAKE_PROGRAM}
-                                --table ${CMAKE_CURRENT_SOURCE_DIR}/${table} ${ARG_UNPARSED_ARGUMENTS})
-  set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS "${ARG_LABELS}")
+                                --table ${CMAKE_CURRENT_SOURCE_DIR}/${table} --sample ${sample} ${ARGN})
+  set_tests_properties(${name} PROPERTIES TIMEOUT 3600)
+  takt_tier(full ${name})
 endfunction()

@@ -9,16 +9,14 @@
 #include "analysis/thread_bound.hpp"
 #include "sim/random.hpp"
 #include "tests/analysis/host_falsification.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::cpu_falsification_test {
 namespace {
 
 using sim::Duration;
 
-std::size_t cpu_networks() {
-  const char* const wanted = std::getenv("TAKT_CPU_NETWORKS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 60;
-}
+std::size_t cpu_networks() { return support::case_count("TAKT_CPU_NETWORKS", 60); }
 
 class CpuNetwork {
  public:

@@ -13,14 +13,12 @@
 #include "scenario/applications/resolved_dds.hpp"
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::dds_falsification_test {
 namespace {
 
-std::size_t dds_networks() {
-  const char* const wanted = std::getenv("TAKT_DDS_NETWORKS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 60;
-}
+std::size_t dds_networks() { return support::case_count("TAKT_DDS_NETWORKS", 60); }
 
 class DdsNetwork {
  public:

@@ -10,6 +10,7 @@
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
 #include "tests/property/random_scenario.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::falsification_test {
 namespace {
@@ -44,10 +45,7 @@ const std::vector<std::vector<Feature>>& mixes() {
   return all;
 }
 
-std::size_t networks() {
-  const char* const wanted = std::getenv("TAKT_FALSIFICATION_NETWORKS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 200;
-}
+std::size_t networks() { return support::case_count("TAKT_FALSIFICATION_NETWORKS", 200); }
 
 /// A random network whose streams have a least gap between their frames, and whose links are not hopelessly full.
 std::string network(std::size_t number) {

@@ -8,14 +8,12 @@
 
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::gated_falsification_test {
 namespace {
 
-std::size_t gated_networks() {
-  const char* const wanted = std::getenv("TAKT_GATED_NETWORKS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 60;
-}
+std::size_t gated_networks() { return support::case_count("TAKT_GATED_NETWORKS", 60); }
 
 std::unique_ptr<scenario::Resolved> load(const std::string& text) {
   json::Diagnostics diagnostics;

@@ -11,16 +11,14 @@
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/random.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::ladder_falsification_test {
 namespace {
 
 using sim::Duration;
 
-std::uint64_t ladders() {
-  const char* const wanted = std::getenv("TAKT_LADDERS");
-  return wanted != nullptr ? static_cast<std::uint64_t>(std::atoll(wanted)) : 300;
-}
+std::uint64_t ladders() { return support::case_count("TAKT_LADDERS", 300); }
 
 class LadderMaker {
  public:

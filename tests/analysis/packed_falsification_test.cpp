@@ -6,6 +6,7 @@
 
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::packed_falsification_test {
 namespace {
@@ -65,8 +66,7 @@ std::unique_ptr<scenario::Resolved> load(const std::string& text) {
 }
 
 TEST(PackedFalsification, NoRunIsAboveItsBound) {
-  const char* const wanted = std::getenv("TAKT_PACKED_NETWORKS");
-  const std::uint64_t networks = wanted != nullptr ? static_cast<std::uint64_t>(std::atoi(wanted)) : 150;
+  const std::uint64_t networks = support::case_count("TAKT_PACKED_NETWORKS", 150);
   std::size_t bounded = 0, tight = 0;
   for (std::uint64_t number = 0; number < networks; ++number) {
     PackedNetwork network(number);

@@ -9,6 +9,7 @@
 
 #include "analysis/port_bound.hpp"
 #include "sim/random.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::packed_windows_test {
 namespace {
@@ -241,8 +242,7 @@ class Queue {
 };
 
 TEST(PackedWindows, NoRunIsAboveItsBound) {
-  const char* const wanted = std::getenv("TAKT_PACKED_CASES");
-  const std::uint64_t cases = wanted != nullptr ? static_cast<std::uint64_t>(std::atoi(wanted)) : 300;
+  const std::uint64_t cases = support::case_count("TAKT_PACKED_CASES", 300);
   std::size_t bounded = 0, unbounded = 0, tight = 0;
   double tightest = 0;
   for (std::uint64_t number = 0; number < cases; ++number) {

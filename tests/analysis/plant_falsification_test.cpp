@@ -11,14 +11,12 @@
 #include "evaluation/evaluate.hpp"
 #include "sim/random.hpp"
 #include "tests/analysis/host_falsification.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::plant_falsification_test {
 namespace {
 
-std::size_t plants() {
-  const char* const wanted = std::getenv("TAKT_PLANTS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 40;
-}
+std::size_t plants() { return support::case_count("TAKT_PLANTS", 40); }
 
 class Plant {
  public:

@@ -8,14 +8,12 @@
 
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::shared_falsification_test {
 namespace {
 
-std::size_t shared_networks() {
-  const char* const wanted = std::getenv("TAKT_SHARED_NETWORKS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 60;
-}
+std::size_t shared_networks() { return support::case_count("TAKT_SHARED_NETWORKS", 60); }
 
 class SharedNetwork {
  public:

@@ -9,6 +9,7 @@
 
 #include "analysis/response_times.hpp"
 #include "models/host/cpu.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -135,10 +136,7 @@ std::vector<Release> releases_of(const Machine& machine, Random& random, Ps hori
   return made;
 }
 
-int processors() {
-  const char* const wanted = std::getenv("TAKT_FALSIFICATION_CPUS");
-  return wanted != nullptr ? std::atoi(wanted) : 400;
-}
+int processors() { return static_cast<int>(support::case_count("TAKT_FALSIFICATION_CPUS", 400)); }
 
 TEST(ThreadFalsification, NoResponseIsAboveItsBound) {
   int decided = 0, undecided = 0;

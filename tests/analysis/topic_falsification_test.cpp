@@ -9,14 +9,12 @@
 #include "analysis/thread_bound.hpp"
 #include "sim/random.hpp"
 #include "tests/analysis/falsification.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::analysis::test::topic_falsification_test {
 namespace {
 
-std::size_t topic_networks() {
-  const char* const wanted = std::getenv("TAKT_TOPIC_NETWORKS");
-  return wanted != nullptr ? static_cast<std::size_t>(std::atoi(wanted)) : 60;
-}
+std::size_t topic_networks() { return support::case_count("TAKT_TOPIC_NETWORKS", 60); }
 
 class TopicNetwork {
  public:

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Builds the tests of models, of scenarios and of properties with AddressSanitizer and UndefinedBehaviorSanitizer, and runs them in short form.
+"""Builds the tests of models, scenarios and properties with AddressSanitizer and UndefinedBehaviorSanitizer, and runs them in short form.
 
-usage: sanitized_tests.py SOURCE BUILD_FOLDER
+usage: sanitized_tests.py SOURCE BUILD_FOLDER TAKT_DIGEST
 
-It shares the build folder of the sanitized variant of across_builds.py, which runs every shipped scenario in the same build. There every frame is an
-allocation of its own (models/ethernet/frame_pool.hpp): who looks at one that has ended is found.
+The same build runs every shipped scenario; its digests must be those of TAKT_DIGEST. In this build every frame is an allocation of
+its own (models/ethernet/frame_pool.hpp), so an access to a frame after its end is found.
 """
 import concurrent.futures
 import os
@@ -16,7 +16,7 @@ import time
 
 import across_builds
 
-VARIANT = "clang-asan-ubsan"
+VARIANT = across_builds.Variant("clang++", "Dev", "-O1 -gline-tables-only", "address,undefined")
 # What each test finds in its environment so that it takes seconds: less of the same cases.
 TESTS = {
     "takt_models_parts_test": {},
@@ -48,22 +48,24 @@ def run_test(folder, name):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__)
-    source, builds = map(pathlib.Path, sys.argv[1:3])
-    compiler, build_type, sanitizers = across_builds.VARIANTS[VARIANT]
-    if shutil.which(compiler) is None:
-        print(f"no {compiler} here, left out")
+    source, builds, reference = map(pathlib.Path, sys.argv[1:4])
+    if shutil.which(VARIANT.compiler) is None:
+        print(f"no {VARIANT.compiler} here, left out")
         return 77  # skipped, for ctest
-    folder = across_builds.build(source, builds / VARIANT, compiler, build_type, sanitizers, TESTS).parent
-    failed = 0
+    program = across_builds.build(source, builds / "clang-asan-ubsan", VARIANT, TESTS)
+    folder = program.parent
+    runs = across_builds.shipped_runs(source, seeds=(1,))
+    failed = across_builds.differences("sanitized", across_builds.digests(program, runs), across_builds.digests(reference, runs))
+    print(f"{len(runs)} runs compared, {failed} differ")
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for name, status, seconds, output in pool.map(lambda name: run_test(folder, name), TESTS):
             print(f"{name}: {'passed' if status == 0 else f'ended with {status}'}, {seconds:.0f} s")
             if status != 0:
                 failed += 1
                 print(output[-8000:])
-    print(f"{len(TESTS)} tests with {sanitizers}, {failed} failed")
+    print(f"{len(TESTS)} tests with {VARIANT.sanitizers}, {failed} failures")
     return 1 if failed else 0
 
 

@@ -11,7 +11,7 @@ import sys
 
 import across_builds
 
-COMPILER = "clang++"
+VARIANT = across_builds.Variant("clang++", "Dev", "-O1 -gline-tables-only", "thread")
 TESTS = {
     # What is shipped is divided without sanitizers; here a plant, faults, clocks, and a promise that is not kept.
     "takt_division_test": "DividedRun.HasTheResultOfOneThread:DividedRun.DoesWhatTheScriptSaysWhereItBelongs:DividedRun.HasTheClocksOfOneThread:DividedRun.AWrongPromiseEndsTheRun",
@@ -23,10 +23,10 @@ def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
     source, builds = map(pathlib.Path, sys.argv[1:3])
-    if shutil.which(COMPILER) is None:
-        print(f"no {COMPILER} here, left out")
+    if shutil.which(VARIANT.compiler) is None:
+        print(f"no {VARIANT.compiler} here, left out")
         return 77  # skipped, for ctest
-    folder = across_builds.build(source, builds / "clang-tsan", COMPILER, "Dev", "thread", TESTS).parent
+    folder = across_builds.build(source, builds / "clang-tsan", VARIANT, TESTS).parent
     failed = 0
     for name, which in TESTS.items():
         done = subprocess.run([folder / name, "--gtest_brief=1", f"--gtest_filter={which}"], capture_output=True, text=True, env={**os.environ, "TSAN_OPTIONS": "halt_on_error=1"})

@@ -9,6 +9,7 @@
 #include "scenario/run/divided_run.hpp"
 #include "tests/generator/generated.hpp"
 #include "tests/output/recorded_run.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::generator {
 namespace {
@@ -20,8 +21,7 @@ constexpr std::uint64_t most_events_to_record = 300'000;
 
 // TAKT_DIVIDED=1000: so many scenarios of more than one part instead.
 TEST(GeneratedScenarios, HaveTheResultOfOneThread) {
-  const char* const wanted = std::getenv("TAKT_DIVIDED");
-  const std::uint64_t count = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 12;
+  const std::uint64_t count = support::case_count("TAKT_DIVIDED", 12);
   constexpr std::array<unsigned, 4> threads = {2, 3, 4, 8};
   std::array<std::uint64_t, 9> runs_in_parts = {};
   std::uint64_t divided = 0, recorded = 0;

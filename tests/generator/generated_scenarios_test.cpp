@@ -11,6 +11,7 @@
 
 #include "tests/generator/check_scenario.hpp"
 #include "tests/generator/generated.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::generator {
 namespace {
@@ -23,8 +24,7 @@ std::string lines(const std::vector<Finding>& findings) {
 
 // Numbers that are far from each other, so that few scenarios have many pairs of features.
 TEST(GeneratedScenarios, NothingIsWrong) {
-  const char* const wanted = std::getenv("TAKT_GENERATED");
-  const std::uint64_t count = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 300;
+  const std::uint64_t count = support::case_count("TAKT_GENERATED", 300);
   std::map<std::string, int> done;
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::uint64_t number = i * 7;

@@ -10,9 +10,14 @@ with -O1; the object goes before the library that holds the right one. A row wit
 "killed NAME" as its last line, of a GoogleTest program it is the first test that fails; that must be "killed_by".
 
 A mutant that survives shows a hole in the tests. Exit status 0: all were killed by what the table says. The build must be one of Ninja, and up to date.
+
+A mutant that was killed as expected is remembered in the build folder (mutants_killed.json). It is not tried again while its row, the
+changed text, the commands of the build and the programs that it is shown to are the same. --all forgets. With TAKT_TIER=night
+--sample is ignored.
 """
 import argparse
 import concurrent.futures
+import hashlib
 import json
 import os
 import pathlib
@@ -89,6 +94,40 @@ class Build:
         at = words.index("-o")
         status, _, err = run([*words[:at], *objects, "-o", made, *words[at + 2:]], self.folder)
         return "" if status == 0 else err[:2000] or "no end"
+
+
+class Memory:
+    """Mutants that were killed as expected, by a key of everything that decides about it."""
+
+    def __init__(self, build, options):
+        self.build = build
+        self.options = options
+        self.path = build.folder / "mutants_killed.json"
+        self.digests = {}   # of programs
+        try:
+            self.killed = {} if options.all else json.loads(self.path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            self.killed = {}
+
+    def key(self, mutant):
+        changed = mutated(self.options.below, mutant)
+        programs = [mutant["program"]] if "program" in mutant else self.options.programs
+        commands = [self.build.command(self.build.objects[name]) for name in sorted(changed) if name in self.build.objects]
+        parts = [mutant, changed, commands, [(name, self.digest(name)) for name in programs]]
+        return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+
+    def digest(self, program):
+        """Of the program as it is built: it holds the sources and the tests that a mutant meets."""
+        if program not in self.digests:
+            words = self.build.command(program)
+            self.digests[program] = hashlib.sha256((self.build.folder / words[words.index("-o") + 1]).read_bytes()).hexdigest()
+        return self.digests[program]
+
+    def keep(self, key, killer, where):
+        self.killed[key] = [killer, where]
+        part = self.path.with_suffix(f".{os.getpid()}.part")
+        part.write_text(json.dumps(self.killed, indent=0), encoding="utf-8")
+        part.replace(self.path)
 
 
 def fails_anyway(build, mutants):
@@ -179,6 +218,7 @@ def main():
     parser.add_argument("--sample", type=int, default=0, help="so many of the table, spread over it, the same each time")
     parser.add_argument("--only", help="those with this in their name, or killed by it")
     parser.add_argument("--jobs", type=int, default=min(4, os.cpu_count() or 1))
+    parser.add_argument("--all", action="store_true", help="also those that are remembered as killed")
     parser.add_argument("--print", action="store_true", help="the table of who kills what, as Markdown")
     options = parser.parse_args()
     mutants = json.loads(options.table.read_text(encoding="utf-8"))
@@ -186,27 +226,35 @@ def main():
         mutated(options.below, mutant)   # a table that does not fit the sources is told at once, also of a sample
     if options.only:
         mutants = [each for each in mutants if options.only in each["name"] or options.only == each["killed_by"]]
-    if 0 < options.sample < len(mutants):
+    if 0 < options.sample < len(mutants) and os.environ.get("TAKT_TIER") != "night":
         mutants = [mutants[i * len(mutants) // options.sample] for i in range(options.sample)]
     build = Build(options.build, options.ninja)
-    if said := fails_anyway(build, mutants):
+    memory = Memory(build, options)
+    keys = {id(mutant): memory.key(mutant) for mutant in mutants}
+    if said := fails_anyway(build, [mutant for mutant in mutants if keys[id(mutant)] not in memory.killed]):
         sys.exit(f"mutants: {said.strip()}")
 
     def judged(mutant):
+        if found := memory.killed.get(keys[id(mutant)]):
+            return mutant, *found
         with tempfile.TemporaryDirectory(prefix="takt-mutant-") as folder:
             return mutant, *killer_of(build, options, mutant, pathlib.Path(folder))
 
-    wrong = 0
+    wrong = remembered = 0
     with concurrent.futures.ThreadPoolExecutor(max_workers=options.jobs) as pool:
         for mutant, killer, where in pool.map(judged, mutants):
             # A filter may name several tests, and a broken CHECK ends a program before it can say which one it was.
             as_said = killer not in (None, "does not compile", "does not link", "no end") if "program" in mutant else killer == mutant["killed_by"]
             wrong += not as_said
+            if keys[id(mutant)] in memory.killed:
+                remembered += 1
+            elif as_said:
+                memory.keep(keys[id(mutant)], killer, where)
             if options.print:
                 print(f"| {mutant['name']} | {killer} | {where} |", flush=True)
             elif not as_said:
                 print(f"\"{mutant['name']}\": expected to be killed by {mutant['killed_by']}, found {killer} ({where})", flush=True)
-    print(f"{len(mutants)} mutants, {len(mutants) - wrong} killed as expected")
+    print(f"{len(mutants)} mutants, {len(mutants) - wrong} killed as expected, {remembered} of them earlier")
     return 0 if wrong == 0 and mutants else 1
 
 

@@ -9,6 +9,7 @@
 
 #include "tests/property/random_scenario.hpp"
 #include "tests/scenario/support.hpp"
+#include "tests/support/case_count.hpp"
 #include "tests/wire_checker/verify.hpp"
 
 namespace takt::property {
@@ -31,8 +32,7 @@ std::string described(const Wishes& wishes) {
 }
 
 TEST(FeaturePairs, EveryPairWorks) {
-  const char* const wanted = std::getenv("TAKT_PAIR_SEEDS");
-  const std::uint64_t seeds = wanted != nullptr ? std::strtoull(wanted, nullptr, 10) : 2;
+  const std::uint64_t seeds = support::case_count("TAKT_PAIR_SEEDS", 2);
   int refusals = 0, tries = 0, failures = 0;
   for (int a = 0; a < feature_count; ++a) {
     for (int b = a; b < feature_count; ++b) {

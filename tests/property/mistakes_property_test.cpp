@@ -16,6 +16,7 @@
 #include "json/document.hpp"
 #include "json/node.hpp"
 #include "tests/scenario/support.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::scenario::test {
 namespace {
@@ -113,10 +114,7 @@ std::string judge(const std::string& name, const Node& root, const std::vector<c
   return wrong;
 }
 
-std::size_t most() {
-  const char* const wanted = std::getenv("TAKT_MISTAKES");
-  return wanted != nullptr ? static_cast<std::size_t>(std::strtoul(wanted, nullptr, 10)) : 12;
-}
+std::size_t most() { return support::case_count("TAKT_MISTAKES", 12); }
 
 /// A number that looks like chance, the same in every run.
 std::uint64_t scattered(std::uint64_t value) {

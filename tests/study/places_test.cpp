@@ -15,6 +15,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "sim/digest.hpp"
 #include "study/plan.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::study {
 namespace {
@@ -91,8 +92,7 @@ unsigned mutants_wanted() {
   constexpr rlim_t most_memory = rlim_t{1} << 30;   // a mutant that asks for more fails the test, not the machine
   const rlimit limit{most_memory, most_memory};
   ::setrlimit(RLIMIT_AS, &limit);
-  const char* const text = std::getenv("TAKT_PLACES");
-  return text == nullptr ? mutants_in_short : static_cast<unsigned>(std::strtoul(text, nullptr, 10));
+  return static_cast<unsigned>(support::case_count("TAKT_PLACES", mutants_in_short));
 }
 
 /// Kinds of messages without a place, and an example of each.

@@ -1,4 +1,4 @@
-// Reliable delivery on a medium that loses, duplicates and reorders: every sample once and in order. TAKT_LONG_TESTS multiplies the cases.
+// Reliable delivery on a medium that loses, duplicates and reorders: every sample once and in order. TAKT_DELIVERIES=10000 draws so many cases.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "sim/random.hpp"
+#include "tests/support/case_count.hpp"
 #include "world.hpp"
 
 namespace takt::dds {
@@ -125,13 +126,9 @@ void every_sample_once_and_in_order(const Case& c) {
   }
 }
 
-int cases(int count) {
-  const char* const times = std::getenv("TAKT_LONG_TESTS");
-  return count * (times == nullptr ? 1 : std::max(1, std::atoi(times)));
-}
 void check(const char* what, int count, const std::function<void()>& property) {
   rc::detail::TestParams params = rc::detail::configuration().testParams;
-  params.maxSuccess = cases(count);
+  params.maxSuccess = static_cast<int>(support::case_count("TAKT_DELIVERIES", static_cast<std::uint64_t>(count)));
   rc::detail::TestMetadata metadata;
   metadata.id = what;
   const rc::detail::TestResult result = rc::detail::checkTestable(property, metadata, params);

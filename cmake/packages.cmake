@@ -9,7 +9,7 @@ set(manuals ${PROJECT_BINARY_DIR}/manuals)
 find_program(TAKT_MANUALS_PYTHON python3)
 if(TAKT_MANUALS_PYTHON)
   add_custom_command(OUTPUT ${manuals}/done COMMAND ${TAKT_MANUALS_PYTHON} ${PROJECT_SOURCE_DIR}/tools/manuals $<TARGET_FILE:takt> ${manuals} COMMAND ${CMAKE_COMMAND} -E touch ${manuals}/done
-                     DEPENDS takt ${PROJECT_SOURCE_DIR}/tools/manuals VERBATIM)
+                     DEPENDS takt_programs ${PROJECT_SOURCE_DIR}/tools/manuals VERBATIM)
   add_custom_target(takt_manuals DEPENDS ${manuals}/done)
 endif()
 install(DIRECTORY ${manuals}/man1 ${manuals}/man5 DESTINATION share/man COMPONENT takt_manuals OPTIONAL)

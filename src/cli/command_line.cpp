@@ -6,7 +6,9 @@
 #include <iostream>
 #include <sstream>
 
+#include "cli/companion.hpp"
 #include "cli/terminal.hpp"
+#include "json/document.hpp"
 #include "json/node.hpp"
 #include "json/suggest.hpp"
 
@@ -144,6 +146,20 @@ json::Node description_of(const CLI::App& app) {
   return node;
 }
 
+/// Adds what the programs of companions say of their commands.
+void describe_companions(json::Node& description, std::span<const Companion> elsewhere) {
+  json::Node& commands = *description.find("commands");
+  for (const Companion& companion : elsewhere) {
+    std::erase_if(commands.items, [&](const json::Node& each) { return each.find("name")->text == companion.command; });
+    json::Diagnostics diagnostics;
+    const std::optional<std::string> said = output_of(companion.program, {"takt", "--describe"});
+    const std::optional<json::Document> theirs = said ? json::parse(*said, std::string(companion.program), diagnostics) : std::nullopt;
+    if (!theirs) continue;
+    for (const json::Node& each : theirs->root().find("commands")->items)
+      if (each.find("name")->text == companion.command) commands.items.push_back(each);
+  }
+}
+
 /// An option that no command has, or a word too many.
 std::string unexpected(const CLI::App& app) {
   const CLI::App& command = chosen(app);
@@ -157,15 +173,18 @@ std::string unexpected(const CLI::App& app) {
 }  // namespace
 
 ExitStatus run_command_line(int argc, char** argv, const std::string& help, const std::string& version, const std::string& footer,
-                            const std::function<void(Command, ExitStatus&)>& add) {
+                            const std::function<void(Command, ExitStatus&)>& add, std::span<const Companion> elsewhere) {
   CLI::App app(help);
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   app.footer(footer);
   ExitStatus status = ExitStatus::pass;
   add(Command(app), status);
+  for (const Companion& companion : elsewhere) app.add_subcommand(std::string(companion.command), companion.help);
   if (argc == 2 && std::string_view(argv[1]) == "--describe") {
-    std::fputs(json::pretty(description_of(app)).c_str(), stdout);
+    json::Node description = description_of(app);
+    describe_companions(description, elsewhere);
+    std::fputs(json::pretty(description).c_str(), stdout);
     return ExitStatus::pass;
   }
   if (argc > 1 && argv[1][0] != '-') {

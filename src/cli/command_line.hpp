@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,9 +70,12 @@ class Command {
   CLI::App* app_;
 };
 
-/// Parses and runs what the sub-commands that `add` has added say; they set the status. Help and mistakes are printed here, and with --describe alone all commands and
-/// options as JSON, of which tools/manuals makes man pages and completions.
+struct Companion;
+
+/// Parses the command line and runs one of the sub-commands that `add` has added; they set the status. Help and mistakes are printed
+/// here. --describe alone prints all commands and options as JSON, of which tools/manuals makes man pages and completions. The
+/// sub-commands `elsewhere` appear in the help, and in the description with what their programs say.
 ExitStatus run_command_line(int argc, char** argv, const std::string& help, const std::string& version, const std::string& footer,
-                            const std::function<void(Command, ExitStatus&)>& add);
+                            const std::function<void(Command, ExitStatus&)>& add, std::span<const Companion> elsewhere);
 
 }  // namespace takt::cli

@@ -10,6 +10,8 @@ namespace takt::cli {
 void add_run_command(Command app, ExitStatus& status);
 void add_check_command(Command app, ExitStatus& status);
 void add_schema_command(Command app, ExitStatus& status);
+/// Of the kinds of files that only companions read or write.
+void add_companion_schema_command(Command app, ExitStatus& status);
 void add_program_command(Command app, ExitStatus& status);
 void add_node_command(Command app, ExitStatus& status);
 void add_ctl_command(Command app, ExitStatus& status);

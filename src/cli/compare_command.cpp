@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/study_progress.hpp"
 #include "cli/terminal.hpp"
@@ -72,7 +73,7 @@ ExitStatus run(const CompareOptions& options) {
 }  // namespace
 
 void add_compare_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("compare", "Is scenario B better than A, by how much, and where do they part?");
+  const Command command = app.add_subcommand("compare", companion_help("compare"));
   const auto options = std::make_shared<CompareOptions>();
   command.add_option("A", options->a, "A scenario file").required();
   command.add_option("B", options->b, "Another one, or the same with --set-b").required();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "json/document.hpp"
 #include "node/control_socket.hpp"
 #include "node/node_status.hpp"
@@ -55,7 +56,7 @@ ExitStatus ask(const CtlOptions& options) {
 }  // namespace
 
 void add_ctl_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("ctl", "Call a method of a running node, or ask for its status");
+  const Command command = app.add_subcommand("ctl", companion_help("ctl"));
   const auto options = std::make_shared<CtlOptions>();
   command.add_option("NODE", options->node, "The node's name, or the path of its control socket").required();
   command.add_option("REQUEST", options->request, "start, suspend, resume, halt, reset, join, leave or status")

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/load.hpp"
 #include "cli/places.hpp"
@@ -40,7 +41,7 @@ ExitStatus run_emulation(const ScenarioOptions& options, const std::string& keep
 }  // namespace
 
 void add_emulate_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("emulate", "Run a scenario on real nodes in network namespaces and compare it with the simulated run");
+  const Command command = app.add_subcommand("emulate", companion_help("emulate"));
   const auto options = std::make_shared<ScenarioOptions>();
   const auto keep = std::make_shared<std::string>();
   const auto patience = std::make_shared<int>(10);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/load.hpp"
 #include "cli/places.hpp"
 #include "interchange/format.hpp"
@@ -110,7 +111,7 @@ ExitStatus run_export(const ExportOptions& options) {
 }  // namespace
 
 void add_export_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("export", "Write a scenario for devices and other tools: scripts of Linux, YANG, INET and the like");
+  const Command command = app.add_subcommand("export", companion_help("export"));
   const auto options = std::make_shared<ExportOptions>();
   std::vector<std::string> names;
   for (const interchange::ExportFormat& format : interchange::export_formats()) names.emplace_back(format.name);

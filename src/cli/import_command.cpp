@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/places.hpp"
 #include "interchange/format.hpp"
 #include "json/fields.hpp"
@@ -109,7 +110,7 @@ ExitStatus run_import(const ImportOptions& options) {
 }  // namespace
 
 void add_import_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("import", "Make a scenario of what devices are set to and other tools write");
+  const Command command = app.add_subcommand("import", companion_help("import"));
   const auto options = std::make_shared<ImportOptions>();
   std::vector<std::string> names;
   for (const interchange::ImportFormat& format : interchange::import_formats()) names.emplace_back(format.name);

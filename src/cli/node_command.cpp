@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/terminal.hpp"
 #include "node/applications/describe_topics.hpp"
@@ -180,7 +181,7 @@ ExitStatus run_node(const std::string& file, bool is_check) {
 }  // namespace
 
 void add_node_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("node", "Run a participant of Programs, or applications and gateways, on this machine");
+  const Command command = app.add_subcommand("node", companion_help("node"));
   const auto file = std::make_shared<std::string>();
   const auto is_check = std::make_shared<bool>(false);
   const auto is_hash = std::make_shared<bool>(false);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/places.hpp"
 #include "cli/real_coexistence.hpp"
 #include "cli/terminal.hpp"
@@ -153,7 +154,7 @@ void add_validation(Command command, ExitStatus& status) {
 }  // namespace
 
 void add_paper_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("paper", "Reproduce a published evaluation");
+  const Command command = app.add_subcommand("paper", companion_help("paper"));
   command.require_subcommand();
   add_programs(command, status);
   add_coexistence(command, status);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/places.hpp"
 #include "cli/schedule_change.hpp"
 #include "cli/schedule_scenario_change.hpp"
@@ -267,7 +268,7 @@ ExitStatus run(const ScheduleOptions& options) {
 }  // namespace
 
 void add_schedule_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("schedule", "Find routes, phases and gate lists, or say why there are none");
+  const Command command = app.add_subcommand("schedule", companion_help("schedule"));
   const auto options = std::make_shared<ScheduleOptions>();
   command.add_option("SCENARIO|INSTANCE", options->files, "A scenario with automatic gates, or instances: TAS_Benchmark, TSNBenchScenarios, tsnkit, TSNsched, ECRTS'25, GraphML with applications or neutral, told by their content; network and streams one after the other where they are two files. With --to a scenario need not be given");
   command.add_option("--routes", options->routes, "given: streams without a route are refused, of a scenario only \"route\": \"auto\" is searched for; shortest: one way each; search: other ways, too (search)").one_of({"given", "shortest", "search"}).type_name("ROUTES");

@@ -1,82 +1,25 @@
 // takt schema: what the files of takt may say and its outputs hold, as JSON Schema or as a page for people.
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
-#include "analysis/report_record.hpp"
 #include "cli/commands.hpp"
-#include "emulate/emulation.hpp"
-#include "explain/explanation.hpp"
-#include "explore/report/report.hpp"
-#include "interchange/schedules/report.hpp"
-#include "json/record.hpp"
-#include "json/reference.hpp"
-#include "node/applications/config.hpp"
-#include "node/applications/host.hpp"
-#include "node/config.hpp"
-#include "node/description.hpp"
-#include "node/key_service_node.hpp"
-#include "node/node_status.hpp"
-#include "results/run_result.hpp"
-#include "scenario/description/description.hpp"
-#include "study/compare.hpp"
-#include "study/description.hpp"
-#include "synthesis/change_report.hpp"
-#include "synthesis/report.hpp"
-#include "verify/report_record.hpp"
+#include "cli/companion.hpp"
+#include "cli/file_kinds.hpp"
 
 namespace takt::cli {
 
 namespace {
 
-/// A kind of file that takt reads, or of output that it writes.
-struct FileKind {
-  const char* name;
-  const char* title;
-  json::Node (*schema)(std::string_view title);
-  const json::Record* (*record)() = nullptr;   ///< of an output
-};
-
-template <class T>
-constexpr FileKind read_as(const char* name, const char* title) {
-  return {name, title, json::schema_tree<T>};
-}
-template <class T>
-constexpr FileKind written_as(const char* name, const char* title) {
-  return {name, title, [](std::string_view words) { return json::record_schema(describe(json::Type<T>{}), words); }, [] { return &describe(json::Type<T>{}); }};
-}
-
-constexpr std::array file_kinds{
-    read_as<scenario::Scenario>("scenario", "takt scenario"),
-    read_as<study::Study>("study", "takt study"),
-    read_as<node::Config>("node", "takt node: Programs"),
-    read_as<node::ApplicationsConfig>("applications", "takt node: applications"),
-    read_as<node::KeyServiceNode>("key-service", "takt node: a key service"),
-    written_as<results::RunResult>("result", "takt run: result.json"),
-    written_as<analysis::BoundReport>("bound", "takt bound --format json"),
-    written_as<verify::Report>("verify", "takt verify --format json"),
-    written_as<explain::Explanation>("explain", "takt explain --format json"),
-    written_as<explore::Exploration>("explore", "takt explore --format json"),
-    written_as<interchange::schedules::ScheduleReport>("schedule", "takt schedule INSTANCE --format json"),
-    written_as<synthesis::ScenarioSchedule>("schedule-scenario", "takt schedule SCENARIO --format json"),
-    written_as<synthesis::ChangeSummary>("schedule-change", "takt schedule --to SCENARIO --format json"),
-    written_as<study::Comparison>("compare", "takt compare --format json"),
-    written_as<node::NodeStatus>("status", "takt ctl NODE status --format json"),
-    written_as<node::NodeDescription>("describe", "takt node --describe"),
-    written_as<node::ApplicationsReport>("statistics", "takt node: statistics of applications"),
-    written_as<emulate::Report>("emulate", "takt emulate --format json"),
-};
-
 struct Options {
-  std::string kind = file_kinds.front().name;
+  std::string kind = "scenario";
   bool as_reference = false;
 };
 
-std::string text_for(const Options& options) {
-  const FileKind& kind = *std::ranges::find_if(file_kinds, [&](const FileKind& each) { return each.name == options.kind; });
-  if (!options.as_reference) return json::pretty(kind.schema(kind.title));
+std::string text_for(const FileKind& kind, bool as_reference) {
+  if (!as_reference) return json::pretty(kind.schema(kind.title));
   if (kind.record != nullptr)
     return json::record_reference(*kind.record(), kind.title,
                                   fmt::format("Made by `takt schema {} --reference` from the tables that the output is written by; `takt schema {}` prints its JSON Schema. Keys that end with "
@@ -89,16 +32,25 @@ std::string text_for(const Options& options) {
 
 }  // namespace
 
-void add_schema_command(Command app, ExitStatus& status) {
+void add_schema_command(Command app, ExitStatus& status, std::span<const FileKind> kinds) {
   const Command command = app.add_subcommand("schema", "Print what files of takt may say and its outputs hold: JSON Schema, or a page for people");
   const auto options = std::make_shared<Options>();
   std::vector<std::string> names;
-  for (const FileKind& kind : file_kinds) names.emplace_back(kind.name);
+  for (const FileKind& kind : kinds) names.emplace_back(kind.name);
+  for (const char* const name : companion_kinds)
+    if (std::ranges::find(names, name) == names.end()) names.emplace_back(name);
   command.add_option("KIND", options->kind, "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: result, bound, verify, explain, explore, schedule (of instances), schedule-scenario, schedule-change (of a scenario), compare, status, describe (of a node), statistics (of a node of applications) or emulate (takt check --format json writes a scenario)").one_of(names);
   command.add_flag("--reference", options->as_reference, "Markdown for people instead: every key with unit, range, default and meaning");
   command.footer("Examples:\n  takt schema > scenarios/takt.schema.json\n  takt schema study > scenarios/studies/takt-study.schema.json\n  takt schema scenario --reference | less");
-  command.callback([options, &status] {
-    std::fputs(text_for(*options).c_str(), stdout);
+  command.callback([options, kinds, &status] {
+    const auto kind = std::ranges::find_if(kinds, [&](const FileKind& each) { return each.name == options->kind; });
+    if (kind == kinds.end()) {
+      std::vector<std::string> words = {"takt", "schema", options->kind};
+      if (options->as_reference) words.emplace_back("--reference");
+      status = become("takt-schema", std::move(words));
+      return;
+    }
+    std::fputs(text_for(*kind, options->as_reference).c_str(), stdout);
     status = ExitStatus::pass;
   });
 }

@@ -7,12 +7,11 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/interrupt.hpp"
 #include "json/fields.hpp"
 #include "scenario/description/description.hpp"
-#ifdef TAKT_WITH_STUDIO
 #include "studio/server.hpp"
-#endif
 
 namespace takt::cli {
 namespace {
@@ -21,8 +20,6 @@ struct StudioOptions {
   std::string file = "scenario.json";
   std::uint32_t port = 0;
 };
-
-#ifdef TAKT_WITH_STUDIO
 
 ExitStatus run(const StudioOptions& options) {
   const studio::Assets assets = studio::built_in_assets();
@@ -37,7 +34,7 @@ ExitStatus run(const StudioOptions& options) {
     return ExitStatus::bad_input;
   }
   studio::Engine engine(options.file);
-  studio::Interface interface(engine, document, json::schema<scenario::Scenario>("takt scenario"), "/proc/self/exe");
+  studio::Interface interface(engine, document, json::schema<scenario::Scenario>("takt scenario"), path_of_program("takt"));
   studio::Server server(interface, assets);
   if (!server.bind(static_cast<std::uint16_t>(options.port))) {
     std::fprintf(stderr, "takt studio: port %u of 127.0.0.1 is not to be had\n", static_cast<unsigned>(options.port));
@@ -60,19 +57,10 @@ ExitStatus run(const StudioOptions& options) {
   return ExitStatus::pass;
 }
 
-#else
-
-ExitStatus run(const StudioOptions&) {
-  std::fputs("takt studio: this takt was built without cpp-httplib; tools/studio installs what is missing, builds and opens the studio\n", stderr);
-  return ExitStatus::bad_input;
-}
-
-#endif
-
 }  // namespace
 
 void add_studio_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("studio", "Edit a scenario in a browser, with verdicts, bounds and network beside it");
+  const Command command = app.add_subcommand("studio", companion_help("studio"));
   const auto options = std::make_shared<StudioOptions>();
   command.add_option("scenario", options->file, "The scenario; made when it is saved first, if it is not there");
   command.add_option("--port", options->port, "Port of 127.0.0.1; any free one if it is not given").type_name("PORT").between(0u, 65535u);

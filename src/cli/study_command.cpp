@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cli/commands.hpp"
+#include "cli/companion.hpp"
 #include "cli/input_kind.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/places.hpp"
@@ -261,7 +262,7 @@ void add_shrink(Command study, ExitStatus& status) {
 }  // namespace
 
 void add_study_command(Command app, ExitStatus& status) {
-  const Command command = app.add_subcommand("study", "What if: run the variants of a scenario, keep the figures, report");
+  const Command command = app.add_subcommand("study", companion_help("study"));
   const auto options = std::make_shared<StudyOptions>();
   command.add_option("FILE", options->file, "The study file (JSON, comments allowed)");
   command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number (as many as the machine has cores)").between(1u, 1024u).type_name("N");

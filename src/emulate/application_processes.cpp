@@ -37,7 +37,7 @@ std::string ApplicationProcesses::start() {
 
 void ApplicationProcesses::start(Process& process, bool again) {
   Child::Settings settings;
-  settings.command = {own_executable(), "node", process.file};
+  settings.command = {node_program(), "node", process.file};
   settings.network_namespace = machine_.namespace_of(process.plan->host);
   settings.output = process.log;
   settings.errors = process.errors;

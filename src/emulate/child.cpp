@@ -118,9 +118,9 @@ std::string run_command(const std::vector<std::string>& command) {
   return text + ": " + (said.empty() ? status ? "status " + std::to_string(*status) : "no end" : said);
 }
 
-std::string own_executable() {
+std::string node_program() {
   std::error_code error;
-  return std::filesystem::read_symlink("/proc/self/exe", error).string();
+  return std::filesystem::read_symlink("/proc/self/exe", error).replace_filename("takt-node").string();
 }
 
 }  // namespace takt::emulate

@@ -39,6 +39,6 @@ class Child {
 std::string run_command(const std::vector<std::string>& command);
 
 /// The file that runs now; "" if the system does not tell.
-std::string own_executable();
+std::string node_program();
 
 }  // namespace takt::emulate

@@ -129,7 +129,7 @@ class Measurement {
       node.errors = stem + ".errors";
       std::ofstream(stem + ".json") << node_file(study, node.name, interval, settings_.windows, ground.network(), node.statistics);
       Child::Settings child;
-      child.command = {own_executable(), "node", stem + ".json"};
+      child.command = {node_program(), "node", stem + ".json"};
       child.network_namespace = ground.namespace_of(n);
       node.log = stem + ".log";
       child.output = node.log;

@@ -125,7 +125,7 @@ class Emulation {
   void start(LiveNode& node, bool again) {
     write_file(node);
     Child::Settings settings;
-    settings.command = {own_executable(), "node", node.file};
+    settings.command = {node_program(), "node", node.file};
     settings.network_namespace = machine_->namespace_of(node.plan->host);
     settings.output = node.log;
     settings.errors = node.errors;

@@ -1,0 +1,3 @@
+#include "cli/program.hpp"
+
+int main(int argc, char** argv) { return takt::cli::run_companion(argc, argv, {takt::cli::add_companion_schema_command}); }

@@ -1,6 +1,6 @@
 // CHECK: invariants of takt itself. They stay on in release builds.
 //
-// A user's mistake is never a CHECK (it is a diagnostic, see scenario/diagnostics.hpp). A failed CHECK means that takt is
+// A user's mistake is never a CHECK (it is a diagnostic, see json/diagnostics.hpp). A failed CHECK means that takt is
 // wrong; it unwinds to the loop of the simulation, which adds simulated time, event and seed, and to main, which exits 3.
 #pragma once
 
@@ -15,10 +15,8 @@ class InvariantBroken : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-[[noreturn]] [[gnu::cold]] [[gnu::noinline]] inline void check_failed(const char* condition, const char* meaning,
-                                                                      const char* file, int line) {
-  throw InvariantBroken(std::string(file) + ":" + std::to_string(line) + ": CHECK(" + condition + ") failed: " + meaning);
-}
+/// Throws InvariantBroken. Out of line, so that a CHECK costs its callers one call.
+[[noreturn]] [[gnu::cold]] void check_failed(const char* condition, const char* meaning, const char* file, int line);
 
 }  // namespace takt::sim
 

@@ -1,4 +1,4 @@
-// Monitored items and subscriptions (OPC 10000-4, 5.13 and 5.14) as values: time and notifications in, messages out. Who answers Publish requests is `publishing.hpp`.
+// Monitored items and subscriptions (OPC 10000-4, 5.13 and 5.14) as values: time and notifications in, messages out. Who answers Publish requests is `subscription_services.cpp`.
 #pragma once
 
 #include <deque>

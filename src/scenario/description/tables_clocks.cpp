@@ -1,4 +1,4 @@
-// The vocabulary of clocks and gPTP. See description_tables.cpp.
+// The vocabulary of clocks and gPTP. See tables.cpp.
 #include "scenario/description/clocks.hpp"
 #include "plant/limits.hpp"
 

@@ -1,4 +1,4 @@
-// The vocabulary of faults. See description_tables.cpp.
+// The vocabulary of faults. See tables.cpp.
 #include "scenario/description/faults.hpp"
 #include "plant/limits.hpp"
 

@@ -1,4 +1,4 @@
-// The vocabulary of what comes in: identification, policing, shaping by ATS, CQF, and redundant streams. See description_tables.cpp.
+// The vocabulary of what comes in: identification, policing, shaping by ATS, CQF, and redundant streams. See tables.cpp.
 #include "models/egress/cyclic_schedule.hpp"
 #include "scenario/description/ingress.hpp"
 

@@ -1,4 +1,4 @@
-// The vocabulary of networks: nodes, ports, links, generators. See description_tables.cpp.
+// The vocabulary of networks: nodes, ports, links, generators. See tables.cpp.
 #include "models/egress/cyclic_schedule.hpp"
 #include "scenario/description/description.hpp"
 #include "plant/limits.hpp"

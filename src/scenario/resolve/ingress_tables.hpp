@@ -1,4 +1,4 @@
-// The parts of an ingress that stand for themselves: gates, meters, schedulers, identification entries. See resolve_ingress.hpp.
+// The parts of an ingress that stand for themselves: gates, meters, schedulers, identification entries. See ingress.hpp.
 #pragma once
 
 #include <optional>

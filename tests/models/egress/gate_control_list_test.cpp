@@ -30,7 +30,7 @@ GateSchedule running_from_0(const GateControlList& list, Duration extension = 0_
 }
 StartAnswer ask_again_at(LocalTime time) { return {false, time}; }
 
-// qbv.md 7: cycle 1 ms, H 0x80 for 100 us, R 0x7F for 900 us.
+// Cycle 1 ms, H 0x80 for 100 us, R 0x7F for 900 us.
 const std::vector<GateControlEntry> worked_entries = {{hold, 0x80, 100_us}, {release, 0x7F, 900_us}};
 
 // At 1 Gb/s, 1522 octets and the preamble take 1530 * 8 ns = 12.24 us: 995 + 12.24 > 1000. 500 octets take 4.064 us and fit.

@@ -1,4 +1,4 @@
-// Sizes of fragments, where a frame may be cut, and the numbers between preamble and data (forwarding.md 6).
+// Sizes of fragments, where a frame may be cut, and the numbers between preamble and data (IEEE 802.3, clause 99).
 #include <gtest/gtest.h>
 
 #include <algorithm>

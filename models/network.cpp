@@ -186,8 +186,9 @@ void Network::set_up_ingress() {
     for (EgressPort& port : mutable_ports(node))
       if (port.is_connected() && port.untags()) bridges_[n]->set_untags();
     if (!plan_.nodes[n].ingress) continue;
-    ingress_[n] = std::make_unique<IngressPipeline>(traffic_, plan_.ingress_configs[*plan_.nodes[n].ingress], clock_of(node), bridges_[n]->id(),
-                                                    static_cast<std::uint32_t>(plan_.nodes.size()));
+    ingress_[n] = std::make_unique<IngressPipeline>(
+        traffic_, plan_.ingress_configs[*plan_.nodes[n].ingress], clock_of(node), bridges_[n]->id(),
+        static_cast<std::uint32_t>(plan_.nodes.size()), plan_.nodes[n].forwarding_delay);
     bridges_[n]->set_ingress_chain(ingress_[n].get());
     for (EgressPort& port : mutable_ports(node))
       if (port.is_connected()) port.link().check_arrivals();

@@ -40,7 +40,8 @@ inline constexpr int traffic_class_count = 8;
 struct alignas(64) Frame {
   sim::TrueTime produced;          ///< when the application handed it over
   std::uint64_t sequence = 0;      ///< number within its stream, from 0
-  /// If marked: not to be sent before, by the clock of the node where the frame is (launch time, ATS eligibility time).
+  /// If marked: not to be sent before, by the clock of the node where the frame is (launch time; ATS eligibility time
+  /// and the bridge's forwarding delay after it).
   sim::LocalTime eligible;
   AddressIndex destination;
   AddressIndex source;

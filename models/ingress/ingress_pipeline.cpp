@@ -7,9 +7,14 @@
 
 namespace takt::models {
 
-IngressPipeline::IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock, sim::ComponentId where,
-                                 std::uint32_t first_group)
-    : traffic_(&traffic), config_(&config), clock_(&clock), where_(where), streams_(config.stream_identity_table, first_group) {
+IngressPipeline::IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock,
+                                 sim::ComponentId where, std::uint32_t first_group, sim::Duration forwarding_delay)
+    : traffic_(&traffic),
+      config_(&config),
+      clock_(&clock),
+      where_(where),
+      forwarding_delay_(forwarding_delay),
+      streams_(config.stream_identity_table, first_group) {
   for (const StreamFilterConfig& filter : config.stream_filters) filters_.add(filter);
   gates_.reserve(config.stream_gates.size());
   for (const StreamGateConfig& gate : config.stream_gates) gates_.emplace_back(gate);
@@ -93,12 +98,13 @@ bool IngressPipeline::passes_as_it_is(Frame& frame, std::uint16_t port, sim::Tru
   if (found == nullptr || !clock_->is_ideal()) return false;
   const Instances* const instances = alone_[found->stream.value][frame.priority];
   if (instances == nullptr || !instances->filter->surely_accepts(msdu_of(frame))) return false;
-  const sim::LocalTime arrival = clock_->local_at(on_wire);
   AtsGroup* group = nullptr;
   if (instances->kind == Instances::Kind::meter) {
+    const sim::LocalTime arrival = clock_->local_at(on_wire);
     if (!instances->meter->meter.finds_full(Octets{frame.length}, arrival)) [[unlikely]] return finds_enough(*instances, frame, arrival, group);
     ++instances->meter->frames[static_cast<std::size_t>(FrameColor::green)];
   } else {
+    const sim::LocalTime arrival = clock_->local_at(on_wire + forwarding_delay_);
     Scheduler& scheduler = *instances->scheduler;
     group = known_group_of(scheduler, frame, port);
     if (frame.references != 1 || group == nullptr) return false;
@@ -191,8 +197,9 @@ bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, con
   }
 
   std::optional<sim::LocalTime> eligible;
+  const sim::LocalTime through = clock_->local_at(ingress.on_wire + forwarding_delay_);
   if (instances.scheduler != nullptr) {
-    eligible = shape(*instances.scheduler, frame, ingress.port, arrival);
+    eligible = shape(*instances.scheduler, frame, ingress.port, through);
     if (!eligible) return discard(simulation, index, DropReason::residence_time);
   }
 
@@ -202,7 +209,7 @@ bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, con
   own.drop_eligible = drop_eligible;
   if (ipv || eligible) {
     own.queue_priority = ipv.value_or(own.priority);
-    own.eligible = eligible.value_or(arrival);
+    own.eligible = eligible.value_or(through);
     own.marked = true;
   }
   return true;

@@ -1,22 +1,30 @@
-// The ingress chain of a bridge: everything that the standards place between the medium and the queues and that knows streams.
+// The ingress chain of a bridge: everything that the standards place between the medium and the queues and that knows
+// streams.
 //
 //   1. stream identification                 802.1CB 6, 9.1     which stream, which member of it
-//   2. decoding, individual recovery,        802.1CB 7.4.3      only where the stream is made one again: copies end here, those that
-//      sequence recovery (elimination)       to 7.6             pass lose their R-TAG and get the compound stream's address
+//   2. decoding, individual recovery,        802.1CB 7.4.3      only where the stream is made one again: copies end
+//   here, those that
+//      sequence recovery (elimination)       to 7.6             pass lose their R-TAG and get the compound stream's
+//      address
 //   3. stream filter, maximum SDU            802.1Q 8.6.5.3
 //   4. stream gate                           802.1Q 8.6.5.4     gives the internal priority value
 //   5. flow meter                            802.1Q 8.6.5.5     gives drop_eligible
 //   6. ATS scheduler                         802.1Q 8.6.5.6     gives the eligibility time
 //   7. sequence generation, encoding, split  802.1CB 7.4.1, 7.7 only where the stream is split
 //
-// Recovery comes before policing because its functions stand in the stack of the reception port, below the forwarding process
-// of which policing is part (802.1CB clause 8): a copy that is eliminated takes nothing from a meter's or a scheduler's
-// bucket. A split stands behind policing: what is policed is the stream, once, and not its members. A gate and a scheduler see
-// the time at which the last bit was in, by the node's clock; intervals (meters, reset and latent error timers) are measured on
-// the same clock without its steps.
+// Recovery comes before policing because its functions stand in the stack of the reception port, below the forwarding
+// process of which policing is part (802.1CB clause 8): a copy that is eliminated takes nothing from a meter's or a
+// scheduler's bucket. A split stands behind policing: what is policed is the stream, once, and not its members. A gate
+// sees the time at which the last bit was in, by the node's clock; intervals (meters, reset and latent error timers)
+// are measured on the same clock without its steps.
 //
-// What happens at one instant at several ports depends on the order of the calls (which copy passes, who takes the tokens), so
-// the bridge calls in the order of its port numbers.
+// An ATS scheduler (8.6.11) sees the time at which the forwarding delay is over. The eligibility time that it gives is
+// the one that follows from the last bit, later by the forwarding delay: a frame may be selected no earlier than its
+// processing delay after its eligibility time. Otherwise a forwarding delay that is longer than the hold would let a
+// burst out unshaped.
+//
+// What happens at one instant at several ports depends on the order of the calls (which copy passes, who takes the
+// tokens), so the bridge calls in the order of its port numbers.
 #pragma once
 
 #include <array>
@@ -39,9 +47,10 @@ namespace takt::models {
 
 class IngressPipeline final : public IngressChain {
  public:
-  /// `where` is the component that drops are accounted to; `first_group` is the number of nodes (see mac_address_of). All references
-  /// outlive the pipeline.
-  IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock, sim::ComponentId where, std::uint32_t first_group);
+  /// `where` is the component that drops are accounted to; `first_group` is the number of nodes (see mac_address_of);
+  /// `forwarding_delay` is the bridge's fixed one. All references outlive the pipeline.
+  IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock, sim::ComponentId where,
+                  std::uint32_t first_group, sim::Duration forwarding_delay);
   IngressPipeline(const IngressPipeline&) = delete;   // instances_ points into it
   IngressPipeline& operator=(const IngressPipeline&) = delete;
 
@@ -59,7 +68,7 @@ class IngressPipeline final : public IngressChain {
     AtsScheduler scheduler;
     std::uint64_t passed = 0;
     std::uint64_t discarded = 0;             ///< would have stayed longer than the maximum residence time
-    sim::Duration longest_hold;              ///< greatest eligibility time minus arrival
+    sim::Duration longest_hold;  ///< greatest eligibility time minus arrival, both with or without the forwarding delay
   };
   struct Split {
     StreamHandle stream;
@@ -128,6 +137,7 @@ class IngressPipeline final : public IngressChain {
   const IngressConfig* config_;
   const LocalClock* clock_;
   sim::ComponentId where_;
+  sim::Duration forwarding_delay_;
   StreamTable streams_;
   std::vector<Functions> functions_;        // by stream handle; the last one is that of frames of no stream
   StreamFilterTable filters_;

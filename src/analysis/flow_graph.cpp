@@ -66,7 +66,9 @@ PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const Bou
   model.clock = clock_quality(r, port.node, options);
   model.counts_packets = options.counts_packets;
   const models::NodePlan& node = r.plan.nodes[port.node.value];
-  if (node.forwards()) model.late_by = node.greatest_forwarding_delay().ps();
+  // Times count from the end of the fixed delay; what the jitter keeps, or a clock that is set back, comes later.
+  if (node.forwards())
+    model.late_by = sum((node.greatest_forwarding_delay() - node.least_forwarding_delay()).ps(), 2 * model.clock.error);
   for (const scenario::ResolvedAction& action : r.script)
     if (const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what); gates != nullptr && gates->node == port.node && gates->port == port.number)
       model.more_gates.push_back(gates->gates);

@@ -75,7 +75,8 @@ struct PortModel {
   std::vector<models::GateConfig> more_gates = {};   ///< lists that the script will set; a bound holds for each list
   ClockQuality clock;
   std::optional<CqfPort> cqf;
-  Ps late_by = 0;         ///< frames of timed classes that come so much later may be eligible before (bridges: the forwarding delay)
+  Ps late_by =
+      0;  ///< frames of timed classes that come so much later may be eligible before (bridges: jitter, clock steps)
   models::ClassSet unordered = 0;   ///< timed classes in which frames without launch times overtake
   bool counts_packets = true;   ///< false: bits leave as they come, no frame is waited for. Wrong, for tests of tests
 };

@@ -118,6 +118,24 @@ TEST(Verification, WantOfAReactionIsNoContradiction) {
   EXPECT_EQ(found.verdict(), Conclusion::refuted);
 }
 
+// A forwarding delay that is longer than an ATS scheduler holds a frame let a burst out unshaped, which the bound
+// behind the scheduler does not know: the run exceeded it.
+TEST(Verification, AtsShapesWhateverTheForwardingDelay) {
+  using Overrides = std::vector<std::string>;
+  const auto delayed = [](const char* delay) { return std::string("/network/nodes/s/forwarding_delay=") + delay; };
+  const std::string faster = "/network/nodes/s/ingress/ats/0/rate=85Mbps";
+  for (const Overrides& overrides : {Overrides{}, Overrides{faster, delayed("3us")},
+                                     Overrides{faster, delayed("100us")}, Overrides{delayed("0us")}}) {
+    json::Diagnostics diagnostics;
+    const auto resolved = scenario::load_file(
+        std::string(TAKT_SOURCE_DIR) + "/tests/findings/ats-forwarding-delay.json", overrides, diagnostics);
+    ASSERT_TRUE(resolved) << diagnostics.to_text();
+    const Verification found = verify(*resolved, small());
+    EXPECT_FALSE(found.contradiction) << found.contradiction->text;
+    EXPECT_EQ(found.verdict(), Conclusion::pass);
+  }
+}
+
 TEST(Verification, UndecidedBetweenTheWorstRunAndTheBound) {
   const Verification loose = verified(R"({"stream": "urgent", "latency": "20us"})");
   const Duration between = *loose.lines[0].adversarial + (*loose.lines[0].bound - *loose.lines[0].adversarial) / 2;

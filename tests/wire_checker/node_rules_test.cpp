@@ -187,6 +187,32 @@ TEST(NodeRules, AsynchronousTrafficShaping) {
   EXPECT_FOUND(limited(119'000 * ns).dropped(1'864 * ns, sw, 2, DropReason::residence_time).until(10'000 * ns), "is dropped for residence_time, which the configuration does not ask for");
 }
 
+// The same over a switch that takes 500 us: the second frame may start so long after its eligibility time, and not when
+// it comes to the port.
+TEST(NodeRules, TheForwardingDelayComesAfterTheEligibilityTime) {
+  constexpr Ps delay = 500'000 * ns;
+  const auto starting = [&](Ps start, Ps marked) {
+    Records all(shaped());
+    all.plan().nodes[1].forwarding_delay = sim::Duration::from_ps(delay);
+    all.frame(1, 0)
+        .frame(2, 1)
+        .produced(0, 1)
+        .started(0, h1_port, 1)
+        .produced(1'000 * ns, 2)
+        .started(1'000 * ns, h1_port, 2);
+    all.mark(1, 864 * ns + delay).started(864 * ns + delay, sw_to_h2, 1);
+    all.mark(2, marked)
+        .enqueued(1'864 * ns + delay, sw_to_h2, 2)
+        .dequeued(start, sw_to_h2, 2)
+        .started(start, sw_to_h2, 2);
+    return all;
+  };
+  const Ps ready = 120'864 * ns + delay;
+  EXPECT_NOTHING(starting(ready, ready).until(900'000 * ns));
+  EXPECT_FOUND(starting(1'864 * ns + delay, ready).until(900'000 * ns), "before its eligibility time");
+  EXPECT_FOUND(starting(ready - delay, ready - delay).until(900'000 * ns), "is eligible at");
+}
+
 TEST(NodeRules, Policing) {
   models::IngressConfig config;
   models::StreamFilterConfig filter;

@@ -227,7 +227,9 @@ void WireChecker::run_ingress(std::uint32_t index, Ps now, std::vector<Arrival*>
       const models::StreamRecoveryConfig* const recovery = node.ingress->recovery_of(arrival.frame);
       if (recovery != nullptr && group->passed > group->entered - std::min(group->copies, group->entered)) continue;
       if (recovery != nullptr) check_at_most_once(*recovery, index, arrival.frame, now);
-      const IngressOracle::Verdict verdict = node.ingress->pass(arrival.frame, arrival.port, now - node.fixed_delay);
+      IngressOracle::Verdict verdict = node.ingress->pass(arrival.frame, arrival.port, now - node.fixed_delay);
+      // A frame may be selected no earlier than the forwarding delay after its eligibility time.
+      if (verdict.eligible) *verdict.eligible += node.fixed_delay;
       arrival.verdicts.push_back(verdict);
       if (!verdict.drop) continue;
       if (group->drops[*verdict.drop]-- == 0)

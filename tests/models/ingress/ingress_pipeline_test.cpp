@@ -23,7 +23,8 @@ constexpr AddressIndex member_b{22};
 /// A pipeline alone: frames are handed in at instants, and what comes out is looked at.
 class Bench {
  public:
-  explicit Bench(IngressConfig config) : config_(std::move(config)), pipeline_(traffic, config_, clock_, sim::ComponentId{0}, nodes) {
+  explicit Bench(IngressConfig config, Duration forwarding_delay = {})
+      : config_(std::move(config)), pipeline_(traffic, config_, clock_, sim::ComponentId{0}, nodes, forwarding_delay) {
     Stream stream;
     stream.source = AddressIndex{1};
     stream.destination = group;
@@ -219,6 +220,21 @@ TEST(IngressPipeline, AnAtsSchedulerSpreadsABurst) {
   }
   EXPECT_EQ(bench.pipeline().ats_schedulers()[0].passed, 3u);
   EXPECT_EQ(bench.pipeline().ats_schedulers()[0].longest_hold, 284_us);
+}
+
+// A frame may be selected no earlier than its forwarding delay after its eligibility time, however long the delay is:
+// the distances are those of the bucket. The hold is the same, and so is what stays too long.
+TEST(IngressPipeline, TheForwardingDelayComesAfterTheEligibilityTime) {
+  for (const Duration delay : {0_us, 3_us, 500_us}) {
+    Bench bench{ats(200_us), delay};
+    for (const Duration eligible : {10_us, 152_us}) {
+      const Frame* const frame = bench.pass(10_us);
+      ASSERT_NE(frame, nullptr);
+      EXPECT_EQ(frame->eligible, LocalTime() + eligible + delay);
+    }
+    EXPECT_EQ(bench.pass(10_us), nullptr);
+    EXPECT_EQ(bench.pipeline().ats_schedulers()[0].longest_hold, 142_us);
+  }
 }
 
 TEST(IngressPipeline, AtsDropsWhatWouldStayTooLong) {

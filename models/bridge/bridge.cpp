@@ -179,7 +179,9 @@ void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
   Link& link = ports_[arrival.port].incoming();
   if ((arrival.is_uncertain() || attention_.asks_links()) && !link.receive(simulation, frame, arrival.flags)) return;
   if (tells_arrivals_ && simulation.trace() != nullptr)
-    simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value, ArrivalDetail{arrival.port, link.sender()}.pack()});
+    simulation.trace()->record(
+        {simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value,
+         ArrivalDetail{arrival.port, link.sender(), (arrival.flags & ArrivalArgument::header_only) != 0}.pack()});
   Header header;
   if ((arrival.flags & ArrivalArgument::header_only) != 0) {
     header = {link.complete_at(simulation.now(), traffic_->frame(frame)), &link};

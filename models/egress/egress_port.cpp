@@ -181,13 +181,13 @@ void EgressPort::settle_many(sim::Simulation& simulation) {
 
 /// The general path: whatever has come at this instant and waits. One frame starts, if it may, and the others wait.
 void EgressPort::settle_all_classes(sim::Simulation& simulation) {
-  if (extras_ && !extras_->headers.empty() && settle_headers(simulation)) return;
   promised_ = sim::TrueTime::never();
   if (has_arrival_) more_arrivals_.insert(more_arrivals_.begin(), arrival_);
   has_arrival_ = false;
   if (!link_.is_up()) {
     for (const Arrival& arrival : more_arrivals_) give_up(simulation, arrival.frame, DropReason::link_down);
     more_arrivals_.clear();
+    store_headers(simulation, Storing::link_down);
     return;
   }
   sort_by_rank(more_arrivals_);
@@ -214,14 +214,18 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
         resume(simulation);
       else
         start_first(simulation, selection);
+    }
+    if (selection.found || cut_through(simulation)) {
       // An express frame that waits for its gate or its credit may want to cut what has just started.
       next = merge == nullptr ? link_.free_at() : merge->under_way() ? look_while_busy(simulation) : when_to_look(now);
+      store_headers(simulation, Storing::goes_first);
     }
     admit_arrivals(simulation);
   } else {
     // A frame that finds no room is no reason to cut another one.
     admit_arrivals(simulation);
     if (merge != nullptr) next = look_while_busy(simulation);
+    store_headers(simulation, Storing::medium_busy);
   }
   if (has_new_head_) [[unlikely]] {
     // What was selected, or asked to come again, knew other heads: those of now may start although the ones before them might not.

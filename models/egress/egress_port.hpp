@@ -94,10 +94,12 @@ class alignas(64) EgressPort final : public sim::Component {
   /// offer_last() at an instant that is complete.
   void take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
 
-  /// The same for a frame of which only the header has come: it may start at once if this port cuts its class through, the medium
-  /// is free, nothing waits and the link it comes from is as fast. Otherwise it is offered at `stored`, when it has wholly come
-  /// and the node's fixed delay is over, or dropped then if it turns out to be damaged. `from` is the link by which it comes.
-  /// Precondition: expect_headers().
+  /// The same for a frame of which only the header has come: it starts at once if this port cuts its class through, the
+  /// link it comes from is as fast, the medium is free, no other frame may be selected now and none of its class waits.
+  /// What waits for a gate or for credit is no reason to store it. Of several headers the first one in the order of
+  /// transmission selection is cut through: the most urgent class, then the least rank. Otherwise it is offered at
+  /// `stored`, when it has wholly come and the node's fixed delay is over, or dropped then if it turns out to be
+  /// damaged. `from` is the link by which it comes. Precondition: expect_headers().
   void offer_header(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::TrueTime stored, Link& from) {
     extras_->headers.push_back({frame, rank, stored, &from});
     settle_later(simulation);
@@ -229,8 +231,10 @@ class alignas(64) EgressPort final : public sim::Component {
   void wake(sim::Simulation& simulation, sim::TrueTime time);
   [[gnu::noinline]] void wake_among_others(sim::Simulation& simulation);
   void take_stored(sim::Simulation& simulation, const sim::Event& event);
-  bool settle_headers(sim::Simulation& simulation);
-  bool may_cut_through(sim::Simulation& simulation, const Extras::HeaderArrival& header);
+  bool cut_through(sim::Simulation& simulation);
+  void start_before_it_has_come(sim::Simulation& simulation, FrameIndex frame);
+  void store_headers(sim::Simulation& simulation, Storing reason);
+  std::optional<StoringDetail> why_stored(sim::TrueTime now, const Extras::HeaderArrival& header);
   void start_first(sim::Simulation& simulation, const Selection& selection);
   void start_selected(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, bool queue_is_empty);
   void start_with_extras(sim::Simulation& simulation, FrameIndex frame, TrafficClass q);

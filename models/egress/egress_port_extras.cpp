@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "models/egress/egress_port.hpp"
+#include "sim/insertion_sort.hpp"
 
 namespace takt::models {
 
@@ -103,31 +104,54 @@ void EgressPort::resume(sim::Simulation& simulation) {
                    TransmissionDetail{rest.remaining.count, rest.traffic_class}.pack()});
 }
 
-/// Frames of which only the header is here. True if one of them has started; the others come again when they are complete.
-bool EgressPort::settle_headers(sim::Simulation& simulation) {
+/// Of the frames of which only the header is here the first that may start does, and the others come again when they
+/// are complete. Preconditions: the medium is free, and nothing else may start now. False: all are stored.
+bool EgressPort::cut_through(sim::Simulation& simulation) {
+  if (!extras_ || extras_->headers.empty()) return false;
   std::vector<Extras::HeaderArrival>& headers = extras_->headers;
-  const bool alone = headers.size() == 1 && !has_arrival_ && more_arrivals_.empty();
-  bool started = false;
-  for (const Extras::HeaderArrival& header : headers) {
+  sim::insertion_sort(headers, [this](const Extras::HeaderArrival& a, const Extras::HeaderArrival& b) {
+    const TrafficClass p = class_of(a.frame), q = class_of(b.frame);
+    return p != q ? p > q : a.rank < b.rank;
+  });
+  for (auto header = headers.begin(); header != headers.end(); ++header) {
+    if (why_stored(simulation.now(), *header)) continue;
+    const Extras::HeaderArrival first = *header;
+    headers.erase(header);
+    first.from->passed_on(simulation.now(), first.frame, shared_->traffic->frame(first.frame), first.stored);
+    start_before_it_has_come(simulation, first.frame);
+    return true;
+  }
+  store_headers(simulation, Storing::refused);
+  return false;
+}
+
+void EgressPort::start_before_it_has_come(sim::Simulation& simulation, FrameIndex frame) {
+  const TrafficClass q = class_of(frame);
+  if (shaping_) shaping_->frame_waits(simulation.now(), q);
+  if (!contains(ranked_, q)) {  // no other class that shares bandwidth may start
+    DeficitRoundRobin::PerClass first{};
+    first[q] = octets_on_medium(frame);
+    shaping_->round()->started(shaping_->round()->choose(first), first[q], true);
+  }
+  ++extras_->frames_cut_through;
+  if (shared_->traffic->frame(frame).bad_fcs) ++extras_->bad_fcs_forwarded;
+  start_selected(simulation, frame, q, true);
+}
+
+/// What has its header here is offered when it has come wholly. `reason` is that of frames which might be cut through
+/// otherwise.
+void EgressPort::store_headers(sim::Simulation& simulation, Storing reason) {
+  if (!extras_ || extras_->headers.empty()) return;
+  for (const Extras::HeaderArrival& header : extras_->headers) {
     header.from->passed_on(simulation.now(), header.frame, shared_->traffic->frame(header.frame), header.stored);
-    if (alone && may_cut_through(simulation, header)) {
-      started = true;
-      const TrafficClass q = class_of(header.frame);
-      if (shaping_) shaping_->frame_waits(simulation.now(), q);
-      if (!contains(ranked_, q)) {   // it is the only one
-        DeficitRoundRobin::PerClass first{};
-        first[q] = octets_on_medium(header.frame);
-        shaping_->round()->started(shaping_->round()->choose(first), first[q], true);
-      }
-      ++extras_->frames_cut_through;
-      if (shared_->traffic->frame(header.frame).bad_fcs) ++extras_->bad_fcs_forwarded;
-      start_selected(simulation, header.frame, q, true);
-      continue;
+    if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]] {
+      const StoringDetail detail = why_stored(simulation.now(), header).value_or(StoringDetail{reason});
+      trace->record(
+          {simulation.now(), static_cast<std::uint32_t>(Occurrence::stored), id(), header.frame.value, detail.pack()});
     }
     link_.schedule_for_sender(simulation, header.stored, stored_frame, static_cast<std::uint64_t>(header.rank) << 32 | header.frame.value);
   }
-  headers.clear();
-  return started;
+  extras_->headers.clear();
 }
 
 void EgressPort::take_stored(sim::Simulation& simulation, const sim::Event& event) {
@@ -139,16 +163,22 @@ void EgressPort::take_stored(sim::Simulation& simulation, const sim::Event& even
     offer(simulation, frame, static_cast<std::uint32_t>(event.argument >> 32));
 }
 
-bool EgressPort::may_cut_through(sim::Simulation& simulation, const Extras::HeaderArrival& header) {
+/// Why the frame may not start before it has come, but for what the medium does now; nothing if it may.
+std::optional<StoringDetail> EgressPort::why_stored(sim::TrueTime now, const Extras::HeaderArrival& header) {
   const TrafficClass q = class_of(header.frame);
-  if (!contains(config_->cut_through, q) || header.from->octet_time() != octet_time() || config_->untagged) return false;
-  const sim::TrueTime now = simulation.now();
-  if (now < link_.free_at() || !queues_.empty() || !link_.is_up()) return false;
-  if (extras_->merge && (extras_->merge->is_preemptable(q) || extras_->merge->rest())) return false;
-  if (!shaping_) return true;
+  const bool may_ever =
+      contains(config_->cut_through, q) && !config_->untagged && !(extras_->merge && extras_->merge->is_preemptable(q));
+  if (!may_ever || (shaping_ && shaping_->is_timed(q))) return StoringDetail{Storing::not_asked_to};
+  if (header.from->octet_time() != octet_time()) return StoringDetail{Storing::other_rate};
+  if (now < link_.free_at()) return std::nullopt;
+  if (contains(candidates(), q)) return StoringDetail{Storing::order};
+  if (!shaping_) return std::nullopt;
   const Frame& record = shared_->traffic->frame(header.frame);
-  if (shaping_->is_timed(q) || !shaping_->fits_max_sdu(q, record.msdu + (record.r_tagged ? r_tag.count : 0))) return false;
-  return shaping_->ready_time(now, q, {record.length, {}}) == now;
+  if (!shaping_->fits_max_sdu(q, record.msdu + (record.r_tagged ? r_tag.count : 0)))
+    return StoringDetail{Storing::too_long};
+  const Head head{record.length, {}};
+  if (shaping_->ready_time(now, q, head) == now) return std::nullopt;
+  return StoringDetail{Storing::refused, shaping_->refusal(now, q, head)};
 }
 
 void EgressPort::tell(sim::Simulation& simulation, const Refusal& refusal, sim::TrueTime until) {

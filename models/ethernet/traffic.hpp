@@ -21,22 +21,29 @@ enum class Occurrence : std::uint32_t {
   produced = 3,  ///< an application handed a frame over; what = sequence, length and source
   started = 4,   ///< the first bit of the preamble leaves a port; see TransmissionDetail (trace only)
   enqueued = 5,  ///< a frame waits in a queue (trace only)
-  cut = 6,       ///< the fragment under way ends after so many octets of the frame; its mCRC follows; see TransmissionDetail (trace only)
-  resumed = 7,   ///< the first bit of the preamble of a continuation leaves a port; see TransmissionDetail (trace only)
-  clock_step = 10,    ///< a servo has stepped a node's clock; what = the step (digest only)
-  clock_rate = 13,    ///< a servo has set the rate of a node's clock; what = the adjustment (digest only)
+  cut = 6,  ///< the fragment under way ends after so many octets of the frame; its mCRC follows; see TransmissionDetail
+            ///< (trace only)
+  resumed = 7,  ///< the first bit of the preamble of a continuation leaves a port; see TransmissionDetail (trace only)
+  clock_step = 10,     ///< a servo has stepped a node's clock; what = the step (digest only)
+  clock_rate = 13,     ///< a servo has set the rate of a node's clock; what = the adjustment (digest only)
   clock_message = 14,  ///< a gPTP message came to a node; what = its octets (digest only)
-  gates_changed = 9,  ///< a port was told of other gates, or one of its gates breaks (trace only)
+  gates_changed = 9,   ///< a port was told of other gates, or one of its gates breaks (trace only)
   received = 11,  ///< a frame reaches the applications of a host; what = frame, detail = stream and node (trace only)
-  output_changed = 12,  ///< a digital output of an application changes; what = its number, detail = its level (trace only)
-  dequeued = 8,  ///< a frame leaves a queue, to be sent or because it is given up (trace only)
-  job_done = 15,  ///< a thread of a processor has done a job; what = its response time (digest only)
-  refused = 16,   ///< frames of a class wait although the medium is free; what = until when at most, as a true time, detail = Refusal (trace only)
-  processing = 17,  ///< a frame waits for the processor of its host, or is on it; what = frame (trace only)
-  arrived = 18,   ///< a frame has come to a node; what = frame, detail = ArrivalDetail (Network::tell_ways() only)
-  separated = 19,  ///< a copy of a frame goes on as another record; what = that one, detail = the one before (Network::tell_ways() only)
-  gates_shown = 20,  ///< the gates of a port are so from now on; what = bit q: that of class q is open (told by who follows gates, not by the port)
-  ended = 21,     ///< no copy of a frame shares the record any more; what = that record (told by who orders records: see Moment)
+  output_changed =
+      12,            ///< a digital output of an application changes; what = its number, detail = its level (trace only)
+  dequeued = 8,      ///< a frame leaves a queue, to be sent or because it is given up (trace only)
+  job_done = 15,     ///< a thread of a processor has done a job; what = its response time (digest only)
+  refused = 16,      ///< frames of a class wait although the medium is free; what = until when at most, as a true time,
+                     ///< detail = Refusal (trace only)
+  processing = 17,   ///< a frame waits for the processor of its host, or is on it; what = frame (trace only)
+  arrived = 18,      ///< a frame has come to a node; what = frame, detail = ArrivalDetail (Network::tell_ways() only)
+  separated = 19,    ///< a copy of a frame goes on as another record; what = that one, detail = the one before
+                     ///< (Network::tell_ways() only)
+  gates_shown = 20,  ///< the gates of a port are so from now on; what = bit q: that of class q is open (told by who
+                     ///< follows gates, not by the port)
+  stored = 22,       ///< the header of a frame has come, which is not cut through; detail = StoringDetail (trace only)
+  ended = 21,  ///< no copy of a frame shares the record any more; what = that record (told by who orders records: see
+               ///< Moment)
 };
 
 /// Whether a trace record of that kind has a frame under way as its `what`.
@@ -51,6 +58,7 @@ constexpr bool names_a_frame(Occurrence kind) {
     case Occurrence::resumed:
     case Occurrence::received:
     case Occurrence::processing:
+    case Occurrence::stored:
     case Occurrence::arrived: return true;
     default: return false;
   }
@@ -81,6 +89,31 @@ struct Refusal {
   }
 };
 
+/// Why a port does not cut a frame through of which it has the header.
+enum class Storing : std::uint8_t {
+  not_asked_to,  ///< it cuts no frames of that class through
+  other_rate,    ///< the frame comes from a link of another rate
+  link_down,     ///< its own link is down
+  medium_busy,   ///< a frame is on the medium, or the gap behind it
+  goes_first,    ///< another frame may start now and does, or is cut through before it
+  order,         ///< frames of its class wait, which came before it
+  too_long,      ///< queueMaxSDU
+  refused,       ///< gate or credit of its class; see the refusal
+  count
+};
+
+/// The detail of a trace record of stored.
+struct StoringDetail {
+  Storing reason = Storing::not_asked_to;
+  Refusal refusal = {};  ///< of `refused`
+  constexpr std::uint64_t pack() const {
+    return static_cast<std::uint64_t>(reason) << 60 | (refusal.pack() & 0x0FFF'FFFF'FFFF'FFFF);
+  }
+  static constexpr StoringDetail unpack(std::uint64_t detail) {
+    return {static_cast<Storing>(detail >> 60), Refusal::unpack(detail & 0x0FFF'FFFF'FFFF'FFFF)};
+  }
+};
+
 /// The detail of a trace record of started, cut or resumed: octets (of the frame; of the fragment that ends; of the rest, FCS
 /// included) and traffic class.
 struct TransmissionDetail {
@@ -92,12 +125,18 @@ struct TransmissionDetail {
   }
 };
 
-/// The detail of a trace record of arrived: by which port of the node, and from which port of another one.
+/// The detail of a trace record of arrived: by which port of the node, from which port of another one, and how much of
+/// it.
 struct ArrivalDetail {
   std::uint16_t port = 0;
   sim::ComponentId sender;
-  constexpr std::uint64_t pack() const { return static_cast<std::uint64_t>(sender.index) << 32 | port; }
-  static constexpr ArrivalDetail unpack(std::uint64_t detail) { return {static_cast<std::uint16_t>(detail), {static_cast<std::uint32_t>(detail >> 32)}}; }
+  bool only_header = false;
+  constexpr std::uint64_t pack() const {
+    return static_cast<std::uint64_t>(sender.index) << 32 | (only_header ? std::uint64_t{1} << 16 : 0) | port;
+  }
+  static constexpr ArrivalDetail unpack(std::uint64_t detail) {
+    return {static_cast<std::uint16_t>(detail), {static_cast<std::uint32_t>(detail >> 32)}, (detail >> 16 & 1) != 0};
+  }
 };
 
 /// One stream: its addressing and its account.

@@ -1,6 +1,9 @@
 #include "explain/explanation.hpp"
 
+#include <array>
+
 #include "json/record.hpp"
+#include "sim/check.hpp"
 
 namespace takt::explain {
 namespace {
@@ -19,6 +22,60 @@ std::vector<ExplainedPart> explained_parts(const models::Network& network, const
   std::vector<ExplainedPart> made;
   for (const Part& part : parts) made.push_back(explained_part(network, part));
   return made;
+}
+
+constexpr std::array<std::string_view, static_cast<std::size_t>(models::Storing::count)> reasons_to_store = {
+    "the port does not cut its class through",
+    "it comes from a link of another rate",
+    "the link is down",
+    "on the medium is ",
+    "first comes ",
+    "frames of its class wait, which came before it",
+    "its SDU is longer than the port's limit",
+    "",  // a refusal
+};
+
+std::string refused_with(const models::Refusal& refusal) {
+  const bool has_entry = refusal.amount != models::Refusal::no_entry;
+  switch (refusal.hindrance) {
+    case models::Hindrance::gate_closed:
+      return "its gate is closed" + (has_entry ? ", entry " + std::to_string(refusal.amount) : std::string());
+    case models::Hindrance::guard:
+      return "it would not end before its gate closes" +
+             (has_entry ? ", entry " + std::to_string(refusal.amount) : std::string());
+    case models::Hindrance::credit:
+      return "the credit of its class is negative, " + std::to_string(refusal.amount) + " bits are missing";
+    case models::Hindrance::not_eligible:
+      return "its time has not come";
+    case models::Hindrance::hold:
+      return "the MAC holds";
+    case models::Hindrance::count:
+      break;
+  }
+  TAKT_CHECK(false, "a hindrance that the models know");
+  return {};
+}
+
+std::string words_of(const models::Network& network, const Stored& stored) {
+  switch (stored.because) {
+    case Stored::Because::preemptable:
+      return "it comes from a port that may preempt it";
+    case Stored::Because::short_frame:
+      return "it is not longer than the header that must have come";
+    case Stored::Because::timed:
+      return "another port of the node sends its priority by eligibility times, which count from the last bit";
+    case Stored::Because::doubled:
+      return "the link has doubled it";
+    case Stored::Because::port:
+      break;
+  }
+  if (stored.detail.reason == models::Storing::refused) return refused_with(stored.detail.refusal);
+  std::string words(reasons_to_store[static_cast<std::size_t>(stored.detail.reason)]);
+  if (stored.detail.reason == models::Storing::medium_busy || stored.detail.reason == models::Storing::goes_first)
+    words += stored.who
+                 ? network.traffic().stream(stored.who->stream).name + " frame " + std::to_string(stored.who->sequence)
+                 : "another frame";
+  return words;
 }
 
 constexpr const char* ends[] = {"delivered", "dropped", "under way"};
@@ -44,9 +101,13 @@ ExplainedFrame explained(const models::Network& network, const Way& way) {
   frame.produced = way.produced;
   frame.ended = way.ended;
   frame.takes = way.latency();
-  if (!way.before.empty()) frame.hops.push_back({frame.talker, {}, {}, {}, way.produced, {}, 0, explained_parts(network, way.before)});
+  if (!way.before.empty())
+    frame.hops.push_back({frame.talker, {}, {}, {}, way.produced, {}, 0, {}, explained_parts(network, way.before)});
   for (const Hop& hop : way.hops) {
-    ExplainedHop made{nodes[hop.port.node.value].name, hop.port.port, {}, hop.traffic_class, hop.came, {}, hop.cuts, explained_parts(network, hop.parts)};
+    ExplainedHop made{
+        nodes[hop.port.node.value].name,    hop.port.port, {}, hop.traffic_class, hop.came, {}, hop.cuts, {},
+        explained_parts(network, hop.parts)};
+    if (hop.stored) made.stored = words_of(network, *hop.stored);
     if (!hop.peer.is_none()) made.to = nodes[hop.peer.value].name;
     if (hop.started != TrueTime::never()) made.started = hop.started;
     frame.hops.push_back(std::move(made));
@@ -73,12 +134,19 @@ const json::Record& describe(json::Type<ExplainedHop>) {
   static constexpr json::Output outputs[] = {
       json::output<&ExplainedHop::node>("node", "Whose port it is."),
       json::output_if_any<&ExplainedHop::port>("port", "The egress port.", "unless within the talker's host"),
-      json::output_if_any<&ExplainedHop::to>("to", "The node at the other end of its link.", "unless within the talker's host"),
-      json::output_if_any<&ExplainedHop::traffic_class>("traffic_class", "Of the frame there.", "unless within the talker's host"),
-      json::output<&ExplainedHop::came>("came_ps", "When the frame came to the port; to the host: when it was produced."),
-      json::output_if_any<&ExplainedHop::started>("started_ps", "When the first bit of its preamble left.", "if it did"),
+      json::output_if_any<&ExplainedHop::to>("to", "The node at the other end of its link.",
+                                             "unless within the talker's host"),
+      json::output_if_any<&ExplainedHop::traffic_class>("traffic_class", "Of the frame there.",
+                                                        "unless within the talker's host"),
+      json::output<&ExplainedHop::came>("came_ps",
+                                        "When the frame came to the port; to the host: when it was produced."),
+      json::output_if_any<&ExplainedHop::started>("started_ps", "When the first bit of its preamble left.",
+                                                  "if it did"),
       json::output<&ExplainedHop::cuts>("cuts", "How often it was preempted there."),
-      json::output<&ExplainedHop::parts>("parts", "From then on, without gaps, until it comes to the next port or ends."),
+      json::output_if_any<&ExplainedHop::stored>("stored", "Why it was not cut through.",
+                                                 "where a frame of a class that the port cuts through was stored"),
+      json::output<&ExplainedHop::parts>("parts",
+                                         "From then on, without gaps, until it comes to the next port or ends."),
   };
   static constexpr json::Record record{"hop", "The talker's host, or one egress port with what follows up to the next.", outputs};
   return record;

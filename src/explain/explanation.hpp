@@ -31,6 +31,7 @@ struct ExplainedHop {
   TrueTime came;
   std::optional<TrueTime> started;
   std::uint32_t cuts = 0;
+  std::optional<std::string> stored;  ///< why, if its class is cut through there
   std::vector<ExplainedPart> parts;
   Duration takes() const;
 };

@@ -56,6 +56,12 @@ void PortAccount::cut(Duration occupied) {
 
 void PortAccount::refused(TrueTime now, TrueTime until, const models::Refusal& refusal) { decision_at(now).refusals.emplace_back(refusal, until); }
 
+std::optional<FrameName> PortAccount::last_started() const {
+  const auto last =
+      std::find_if(decisions_.rbegin(), decisions_.rend(), [](const Decision& decision) { return decision.starts; });
+  return last != decisions_.rend() ? std::optional(last->frame) : std::nullopt;
+}
+
 void PortAccount::forget(TrueTime now) {
   if (decisions_.empty() || (decisions_.size() == 1 && decisions_.front().starts)) return;
   const bool has_present = decisions_.back().at == now;

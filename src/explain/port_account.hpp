@@ -26,6 +26,8 @@ class PortAccount {
     bool is_rest = false;       ///< of a frame that was cut
     bool has_launch_time = false;   ///< what is not eligible waits for it, not for an ATS scheduler's time
   };
+  /// Whose frame was the last to start.
+  std::optional<FrameName> last_started() const;
   /// The parts of that time, appended. Precondition: the account has not been told to forget since.
   void explain(const Waiting& waiting, std::vector<Part>& parts) const;
 

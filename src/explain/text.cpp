@@ -21,6 +21,10 @@ std::string share_of(Duration part, Duration whole) {
   return whole > Duration() ? fmt::format("{:.1f} %", 100.0 * static_cast<double>(part.ps()) / static_cast<double>(whole.ps())) : "";
 }
 
+std::string name_of(const ExplainedHop& hop) {
+  return fmt::format("{}:{} to {}", hop.node, hop.port.value_or(0), hop.to.value_or("nothing"));
+}
+
 std::string end_of(const ExplainedFrame& frame) {
   const std::string where = frame.port ? fmt::format("{}:{}", frame.node, *frame.port) : frame.node;
   if (frame.reason) return fmt::format("dropped at {}: {}", where, *frame.reason);
@@ -42,13 +46,18 @@ void add_frame(std::string& page, const ExplainedFrame& frame, std::string_view 
     for (const ExplainedPart& part : hop.parts) widths.hold(place_of(hop, part), blame_of(part));
   page += fmt::format("{}{} frame {} from {}: {}, {} after it was produced at {}\n", indent, frame.stream, frame.sequence, frame.talker, end_of(frame), json::to_page_text(frame.takes), json::to_page_text(frame.produced.since_start()));
   std::string last = "-";
-  for (const ExplainedHop& hop : frame.hops)
+  for (const ExplainedHop& hop : frame.hops) {
+    if (hop.stored) {
+      last = name_of(hop);
+      page += fmt::format("{}  {:<{}} stored, not cut through: {}\n", indent, last, widths.where, *hop.stored);
+    }
     for (const ExplainedPart& part : hop.parts) {
       std::string where = place_of(hop, part);
       const bool is_same = where == last;
       last = where;
       page += fmt::format("{}  {:<{}} {:<{}} {:>14} {:>7}\n", indent, is_same ? "" : where, widths.where, blame_of(part), widths.what, json::to_page_text(part.takes), share_of(part.takes, frame.takes));
     }
+  }
 }
 
 void add_reaction(std::string& page, const ExplainedReaction& reaction) {
@@ -66,7 +75,7 @@ void add_reaction(std::string& page, const ExplainedReaction& reaction) {
 std::string place_of(const ExplainedHop& hop, const ExplainedPart& part) {
   if (!hop.port) return hop.node;
   const bool at_next = part.cause == "forwarding" || part.cause == "jitter" || part.cause == "os_receive" || part.cause == "processor";
-  return at_next ? hop.to.value_or("") : fmt::format("{}:{} to {}", hop.node, *hop.port, hop.to.value_or("nothing"));
+  return at_next ? hop.to.value_or("") : name_of(hop);
 }
 
 std::string text_of(const Explanation& explanation) {

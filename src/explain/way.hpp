@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "models/ethernet/frame.hpp"
+#include "models/ethernet/traffic.hpp"
 #include "models/port_directory.hpp"
 #include "sim/time.hpp"
 
@@ -59,6 +60,20 @@ struct Part {
   std::uint32_t amount = no_amount;            ///< see Cause
 };
 
+/// Why a frame of a class that the port cuts through was stored.
+struct Stored {
+  enum class Because : std::uint8_t {
+    port,         ///< the port said why, when it had the header
+    preemptable,  ///< the port before may cut it into fragments
+    short_frame,  ///< it is not longer than its header
+    timed,        ///< another port of the node sends its priority by eligibility times, which count from the last bit
+    doubled,      ///< the link has made it of another one
+  };
+  Because because = Because::port;
+  models::StoringDetail detail = {};  ///< of `port`
+  std::optional<FrameName> who = {};  ///< which frame was on the medium
+};
+
 /// One port that the frame has left by, or waits at.
 struct Hop {
   models::PortId port;
@@ -68,6 +83,7 @@ struct Hop {
   TrueTime started;                            ///< the first bit of its preamble; never() if it did not
   std::uint32_t octets = 0;                    ///< DA to FCS
   std::uint32_t cuts = 0;
+  std::optional<Stored> stored = {};
   std::vector<Part> parts;                     ///< from then on, without gaps, to where the next hop begins or all ends
   bool is_told = false;                        ///< an earlier way has shared it: that of another copy of the frame
 };

@@ -58,6 +58,8 @@ void WayRecorder::record(const sim::TraceRecord& record) {
     case Occurrence::received: return received(record);
     case Occurrence::drop: return dropped(record);
     case Occurrence::separated: return separated(record);
+    case Occurrence::stored:
+      return stored(record);
     case Occurrence::ended: return record_ends(static_cast<std::uint32_t>(record.what));
     case Occurrence::processing:
       if (Copy* const copy = copy_of(record.what)) {
@@ -102,6 +104,7 @@ void WayRecorder::produced(const sim::TraceRecord& record) {
   Copy& copy = make_copy(handle);
   copy.journey = number;
   copy.ports.clear();
+  copy.stored.clear();
   copy.places.assign(1, {journey.talker});
 }
 
@@ -117,7 +120,41 @@ void WayRecorder::arrived(const sim::TraceRecord& record) {
   Copy* const copy = copy_of(record.what);
   if (copy == nullptr) return;
   const models::NodeIndex node = node_of(record.where);
-  copy->places.push_back({node, visit_at(*copy, directory_.find(models::ArrivalDetail::unpack(record.detail).sender))});
+  const auto detail = models::ArrivalDetail::unpack(record.detail);
+  copy->places.push_back({node, visit_at(*copy, directory_.find(detail.sender)), detail.only_header});
+}
+
+void WayRecorder::stored(const sim::TraceRecord& record) {
+  Copy* const copy = copy_of(record.what);
+  if (copy == nullptr) return;
+  const std::uint32_t position = directory_.find(record.where);
+  Stored made{Stored::Because::port, models::StoringDetail::unpack(record.detail), {}};
+  const models::Storing reason = made.detail.reason;
+  if (reason == models::Storing::medium_busy || reason == models::Storing::goes_first)
+    made.who = accounts_[position].last_started();
+  copy->stored.emplace_back(position, made);
+}
+
+/// Of a frame that has come wholly, or that the port has stored.
+std::optional<Stored> WayRecorder::why_stored(const Journey& journey, const Visit& visit) const {
+  const models::PortConfig& config = network_->ports(visit.hop.port.node)[visit.hop.port.port].config();
+  if (!models::contains(config.cut_through, visit.hop.traffic_class) || visit.from == none) return std::nullopt;
+  if (visit.hop.stored || visit.has_header_come) return visit.hop.stored;
+  const Visit& before = journey.visits[visit.from];
+  const std::optional<models::PreemptionConfig>& preemption =
+      network_->ports(before.hop.port.node)[before.hop.port.port].config().preemption;
+  if (preemption && models::contains(preemption->preemptable, before.hop.traffic_class))
+    return Stored{Stored::Because::preemptable, {}, {}};
+  const models::NodePlan& node = network_->plan().nodes[visit.hop.port.node.value];
+  if (models::preamble_and_sfd.count + before.hop.octets <=
+      (node.cut_through_header + models::vlan_tag + models::r_tag).count)
+    return Stored{Stored::Because::short_frame, {}, {}};
+  const auto is_timed = [&](const models::EgressPort& port) {
+    return port.is_connected() &&
+           port.config().shaping.is_timed(port.config().traffic_class_of_priority[journey.priority]);
+  };
+  const bool any_is = std::ranges::any_of(network_->ports(visit.hop.port.node), is_timed);
+  return Stored{any_is ? Stored::Because::timed : Stored::Because::doubled, {}, {}};
 }
 
 /// The visit of the frame to that port: the one under way, or a new one.
@@ -131,12 +168,18 @@ WayRecorder::Visit& WayRecorder::visit(Copy& copy, std::uint32_t position, TrueT
   Visit made;
   made.position = position;
   made.from = place->from;
+  made.has_header_come = place->only_header;
   made.has_launch_time = made.from == none && !is_shaped_at_talker(journey.frame.stream);
   made.octet_time = port.octet_time;
   made.hop.port = port.id;
   made.hop.peer = port.peer;
   made.hop.came = now;
   made.hop.started = TrueTime::never();
+  const auto kept = std::ranges::find(copy.stored, position, &std::pair<std::uint32_t, Stored>::first);
+  if (kept != copy.stored.end()) {
+    made.hop.stored = kept->second;
+    copy.stored.erase(kept);
+  }
   journey.visits.push_back(std::move(made));
   return journey.visits.back();
 }
@@ -277,6 +320,7 @@ Way WayRecorder::way_of(const Copy& copy, std::uint32_t last, const Place* place
   for (std::size_t i = 0; i < order.size(); ++i) {
     Visit& visit = journey.visits[order[i]];
     Hop hop = visit.hop;
+    hop.stored = why_stored(journey, visit);
     hop.is_told = std::exchange(visit.is_told, true);
     const bool is_last = i + 1 == order.size();
     const TrueTime until = is_last ? ended : journey.visits[order[i + 1]].hop.came;

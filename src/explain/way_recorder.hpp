@@ -62,6 +62,7 @@ class WayRecorder final : public sim::TraceSink {
     Duration octet_time;
     Duration cable;
     Duration node_delay;
+    bool has_header_come = false;     // before the whole frame
     bool has_launch_time = false;     ///< what is not eligible waits for it: else an ATS scheduler holds it
     bool is_waiting = false;          // it, or its rest
     bool is_told = false;             // in the way of another copy
@@ -71,6 +72,7 @@ class WayRecorder final : public sim::TraceSink {
   struct Place {
     models::NodeIndex node;
     std::uint32_t from = none;        // the hop by which it came
+    bool only_header = false;         // has come
     TrueTime processing = TrueTime::never();   // since when it is on the host's processor
   };
   struct AtPort {
@@ -82,6 +84,7 @@ class WayRecorder final : public sim::TraceSink {
     std::uint32_t journey = none;
     std::vector<Place> places;
     std::vector<AtPort> ports;
+    std::vector<std::pair<std::uint32_t, Stored>> stored;  // by the positions of ports that have its header
   };
   struct Journey {
     FrameName frame;
@@ -110,6 +113,8 @@ class WayRecorder final : public sim::TraceSink {
   void received(const sim::TraceRecord& record);
   void dropped(const sim::TraceRecord& record);
   void separated(const sim::TraceRecord& record);
+  void stored(const sim::TraceRecord& record);
+  std::optional<Stored> why_stored(const Journey& journey, const Visit& visit) const;
   void copy_ends(std::uint32_t record, const models::Frame& frame);
   void record_ends(std::uint32_t record);
 

@@ -126,12 +126,14 @@ std::string label_of(const ExplainedFrame& frame) {
 std::string table_of(const ExplainedFrame& frame) {
   chart::Table table({"hop", "cause", "behind", "took", "share"}, most_parts);
   std::string last;
-  for (const ExplainedHop& hop : frame.hops)
+  for (const ExplainedHop& hop : frame.hops) {
+    if (hop.stored) table.row({{name_of(hop)}, {"stored, not cut through"}, {*hop.stored}, {{}, true}, {{}, true}});
     for (const ExplainedPart& part : hop.parts) {
       const std::string where = explain::place_of(hop, part);
       table.row({{where == last ? std::string() : where}, {part.words}, {behind(part)}, {readable(part.takes), true}, {share_of(part.takes, frame.takes), true}});
       last = where;
     }
+  }
   return table.take();
 }
 

@@ -86,6 +86,22 @@ class CheckedWays final : public sim::TraceSink, private WaySink {
       const std::uint32_t position = directory_.find(hop.port);
       for (const Part& part : hop.parts) check(name, hop, position, part);
     }
+    for (std::size_t h = 1; h < way.hops.size(); ++h) check_stored(name, way.hops[h - 1], way.hops[h]);
+  }
+
+  /// Where the class of a frame is cut through it either comes to the port before it is whole, or there is a reason.
+  void check_stored(const std::string& name, const Hop& before, const Hop& hop) {
+    const models::EgressPort& port = run_->network().ports(hop.port.node)[hop.port.port];
+    const bool is_cut_class = models::contains(port.config().cut_through, hop.traffic_class);
+    if (!is_cut_class || before.cuts > 0 || hop.started == TrueTime::never()) {
+      if (hop.stored && !is_cut_class) wrong(name + ": is told to be stored where nobody would cut it through");
+      return;
+    }
+    const models::Link& link = run_->network().ports(before.port.node)[before.port.port].link();
+    const TrueTime whole =
+        before.started + link.octet_time() * (8 + std::int64_t{before.octets}) + link.reception().far_end.delay;
+    if ((hop.came < whole) == hop.stored.has_value())
+      wrong(name + (hop.stored ? ": is cut through, and told to be stored" : ": is stored without a reason"));
   }
 
   void check(const std::string& name, const Hop& hop, std::uint32_t position, const Part& part) {

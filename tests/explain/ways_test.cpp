@@ -69,6 +69,30 @@ TEST(Ways, LostFrameSaysWhereAndWhy) {
   EXPECT_EQ(frames[0].takes, Duration::from_ps(2'282'000));   // no tag: 154 octets, 1232 ns, then 1050 ns: when it came to the port whose link was down
 }
 
+// Why a frame of a class that is cut through was stored: another header came first; its gate; a link of another rate.
+TEST(Ways, AStoredFrameSaysWhy) {
+  const auto stored = [](const std::string& streams, const std::string& of_links, const std::string& egress) {
+    const auto scenario = resolved(R"({"name": "two", "duration": "1ms", "network": {"nodes": {
+      "a": {"kind": "host"}, "b": {"kind": "host"}, "c": {"kind": "host"},
+      "sw": {"kind": "switch", "egress": [{"to": "c", "cut_through": [6])" + egress + R"(}]}},
+      "links": [{"ends": ["a", "sw"]}, {"ends": ["b", "sw"]}, {"ends": ["sw", "c"])" + of_links + R"(}]},
+      "streams": [)" + streams + "]}");
+    const auto frames = explain_frame(*scenario, {.stream = models::StreamIndex{0}});
+    EXPECT_EQ(frames.size(), 1u);
+    EXPECT_EQ(frames.front().hops.size(), 2u);
+    return frames.front().hops.back().stored.value_or("cut through");
+  };
+  const std::string one = R"({"name": "one", "from": "b", "to": "c", "payload": "500B", "every": "1ms", "offset": "5us", "pcp": 6})";
+  const std::string other = R"(, {"name": "other", "from": "a", "to": "c", "payload": "500B", "every": "1ms", "pcp": 6, "offset": ")";
+  EXPECT_EQ(stored(one, "", ""), "cut through");
+  EXPECT_EQ(stored(one + other + "5us\"}", "", ""), "first comes other frame 0");
+  EXPECT_EQ(stored(one + other + "3us\"}", "", ""), "on the medium is other frame 0");
+  EXPECT_EQ(stored(one, R"(, "rate": "100Mbps")", ""), "it comes from a link of another rate");
+  EXPECT_EQ(stored(one, "", R"(, "gates": {"entries": [{"open": [0], "for": "7us"}, {"open": [6], "for": "43us"}]})"),
+            "its gate is closed, entry 0");
+  EXPECT_EQ(stored(one, "", R"(, "max_sdu": [{"class": 6, "size": "528B"}])"), "cut through");
+}
+
 TEST(Ways, ThereIsNoFrameOfThatNumber) {
   const auto scenario = resolved(two_talkers(R"({"name": "s", "from": "a", "to": "c", "payload": "100B", "every": "1ms"})"));
   EXPECT_TRUE(explain_frame(*scenario, {.stream = models::StreamIndex{0}, .which = FrameQuestion::Which::number, .number = 7}).empty());

@@ -49,6 +49,7 @@ void PortChecker::begin(Ps now) {
   turn_.reset();
   somebody_dropped_ = false;
   displaced_ = 0;
+  started_is_cut_through_ = somebody_found_no_room_ = false;
   check_credits();
 }
 
@@ -96,6 +97,26 @@ void PortChecker::check_nobody_is_passed_over(const Item& item, TrafficClass q) 
     if (p == q || !comes_before(p, q) || queues_[p].empty() || !is_ready(p, queues_[p].front())) continue;
     fail(item, "of class " + std::to_string(q) + " starts although " + wire_checker::name_of(queues_[p].front().stream, queues_[p].front().sequence) + " of class " + std::to_string(p) + " is ready");
   }
+}
+
+/// A frame is cut through only where no whole frame, and no rest of one, may start.
+void PortChecker::check_nobody_else_may_start(const Item& item) {
+  for (TrafficClass p = 0; p < traffic_class_count; ++p)
+    if (!queues_[p].empty() && is_ready(p, queues_[p].front()))
+      fail(item, "is cut through although " +
+                     wire_checker::name_of(queues_[p].front().stream, queues_[p].front().sequence) + " may start");
+  if (rest_ && fit(rest_->q, now_, duration_of(rest_->remaining), gates_) == now_ && !hold_at(now_, gates_).asked)
+    fail(item, "is cut through although the rest of " +
+                   wire_checker::name_of(rest_->item.stream, rest_->item.sequence) + " may go on");
+}
+
+bool PortChecker::could_cut_through(const models::Frame& frame, models::Priority priority) const {
+  const TrafficClass q = config_.traffic_class_of_priority[priority];
+  if (!models::contains(config_.cut_through, q) || config_.untagged || is_preemptable(q) || is_timed(q)) return false;
+  if (!up_ || now_ < free_at_ || !queues_[q].empty() || somebody_dropped_ || somebody_found_no_room_) return false;
+  const std::uint32_t msdu = frame.msdu + (frame.r_tagged ? models::r_tag.count : 0u);
+  if (config_.shaping.queue_max_sdu[q].count != 0 && msdu > config_.shaping.queue_max_sdu[q].count) return false;
+  return ready_time(q, now_, long_ago, duration_of(frame.length)) == now_;
 }
 
 /// What a class with a share met when it started. Frames of the instant are queued afterwards, see enqueued().
@@ -155,8 +176,10 @@ void PortChecker::started(const SeenFrame& seen, models::TransmissionDetail deta
   if (config_.shaping.queue_max_sdu[q].count != 0 && msdu > config_.shaping.queue_max_sdu[q].count) fail(item, "is longer than queueMaxSDU");
   if (is_preemptable(q) && rest_) fail(item, "is preemptable and starts before the rest of " + wire_checker::name_of(rest_->item.stream, rest_->item.sequence));
   check_nobody_is_passed_over(item, q);
+  if (seen.is_cut_through) check_nobody_else_may_start(item);
   note_turn(item, q);
   transmit({item, q, now_, item.length, 0});
+  started_is_cut_through_ = seen.is_cut_through;
   tell_credit(q);
 }
 
@@ -185,6 +208,9 @@ void PortChecker::enqueued(const SeenFrame& seen, TrafficClass q) {
   const bool rest_was_right = (started_is_rest_ && is_preemptable(q)) || models::contains(displaced_, q);
   if (started_class_ && is_head && !rest_was_right && comes_before(q, *started_class_) && is_ready(q, item))
     fail(item, "of class " + std::to_string(q) + " has to wait for " + wire_checker::name_of(started_item_.stream, started_item_.sequence) + " of class " + std::to_string(*started_class_));
+  if (started_is_cut_through_ && is_head && (q == *started_class_ || is_ready(q, item)))
+    fail(item, "has to wait for " + wire_checker::name_of(started_item_.stream, started_item_.sequence) +
+                   ", which is cut through");
   tell_credit(q);
 }
 
@@ -217,6 +243,7 @@ void PortChecker::check_displacing() {
 
 void PortChecker::refused(const SeenFrame& seen, models::DropReason reason) {
   if (reason != models::DropReason::queue_frames && reason != models::DropReason::queue_octets) return;
+  somebody_found_no_room_ = true;
   const Item item = item_of(seen);
   const TrafficClass q = class_of(seen.frame);
   if (why_no_room(q, queues_[q].size(), octets_[q], item) != reason) fail(item, "is dropped for want of room in class " + std::to_string(q) + ", where there is room");

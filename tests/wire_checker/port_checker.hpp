@@ -22,6 +22,7 @@ struct SeenFrame {
   models::FrameIndex handle;
   models::Frame frame;
   Ps eligible = long_ago;   ///< counts in timed classes
+  bool is_cut_through = false;  ///< only its header has come
 };
 
 class PortChecker {
@@ -45,6 +46,8 @@ class PortChecker {
   /// It never came to wait.
   void refused(const SeenFrame& seen, models::DropReason reason);
   void end();
+  /// After end(): of a frame of which only the header is here, whether nothing kept it from being cut through.
+  bool could_cut_through(const models::Frame& frame, models::Priority priority) const;
   /// Nothing happens any more up to and at `now`.
   void finish(Ps now);
 
@@ -108,6 +111,7 @@ class PortChecker {
   void fail(const Item& item, const std::string& what) { fail(wire_checker::name_of(item.stream, item.sequence) + " " + what); }
   void check_start(const Item& item, models::TrafficClass q, std::uint32_t octets);
   void check_nobody_is_passed_over(const Item& item, models::TrafficClass q);
+  void check_nobody_else_may_start(const Item& item);
   void transmit(const Fragment& fragment);
   void note_turn(const Item& item, models::TrafficClass q);
   void check_turn();
@@ -164,6 +168,8 @@ class PortChecker {
   std::optional<Pending> pending_;
   std::optional<models::TrafficClass> started_class_;  // at this instant
   bool started_is_rest_ = false;
+  bool started_is_cut_through_ = false;
+  bool somebody_found_no_room_ = false;  // at this instant
   Item started_item_;
 };
 

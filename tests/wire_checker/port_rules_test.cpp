@@ -44,6 +44,18 @@ class Port {
   Port& stuck(TrafficClass q, std::optional<bool> open) { checker_.force_gate(q, open); return *this; }
   Port& up(bool up) { checker_.set_up(up); return *this; }
   Port& start(char name) { checker_.started(frames_[name], {frames_[name].frame.length, frames_[name].frame.priority}); return *this; }
+  /// The frame has come by its header only.
+  Port& start_early(char name) {
+    SeenFrame seen = frames_[name];
+    seen.is_cut_through = true;
+    checker_.started(seen, {seen.frame.length, seen.frame.priority});
+    return *this;
+  }
+  /// At the end of the instant, of a frame that has not started.
+  bool could_cut_through(char name) {
+    end();
+    return checker_.could_cut_through(frames_[name].frame, frames_[name].frame.priority);
+  }
   Port& start_as(char name, TrafficClass q) { checker_.started(frames_[name], {frames_[name].frame.length, q}); return *this; }
   Port& wait(char name) { checker_.enqueued(frames_[name], frames_[name].frame.priority); return *this; }
   Port& leave(char name) { checker_.dequeued(frames_[name], frames_[name].frame.priority); return *this; }
@@ -276,6 +288,46 @@ TEST(PortRules, Credits) {
   EXPECT_NOTHING(port().at(0).start('a').wait('b').at(960 * ns).start('c').at(13'120 * ns).leave('b').start('b').until(20'000 * ns));
   // An empty queue loses its credit.
   EXPECT_NOTHING(port().at(0).start('a').at(20'000 * ns).start('b').at(20'960 * ns).start('c').until(30'000 * ns));
+}
+
+/// Classes 2 and 5 are cut through; class 3 is closed for ever.
+PortConfig cutting() {
+  PortConfig config;
+  config.cut_through = 1u << 2 | 1u << 5;
+  config.shaping.admin_gate_states = 0xF7;
+  return config;
+}
+
+TEST(PortRules, CutThroughStartsWhereNothingElseMay) {
+  const auto port = [] { return Port(cutting()).frame('a', 2).frame('b', 1).frame('c', 3).frame('d', 5); };
+  EXPECT_NOTHING(port().at(0).start_early('a').until(9'000 * ns));
+  EXPECT_NOTHING(port().at(0).wait('c').at(5 * ns).start_early('a').until(9'000 * ns));
+  EXPECT_FOUND(port().at(0).start_early('a').wait('b').at(960 * ns).leave('b').start('b').until(9'000 * ns),
+               "which is cut through");
+  EXPECT_FOUND(port()
+                   .at(0)
+                   .start('d')
+                   .wait('b')
+                   .at(960 * ns)
+                   .start_early('a')
+                   .at(1'920 * ns)
+                   .leave('b')
+                   .start('b')
+                   .until(9'000 * ns),
+               "is cut through although");
+}
+
+TEST(PortRules, WhatCouldBeCutThrough) {
+  const auto port = [] { return Port(cutting()).frame('a', 2).frame('b', 1).frame('c', 3).frame('d', 2); };
+  EXPECT_TRUE(port().at(0).could_cut_through('a'));
+  EXPECT_TRUE(port().at(0).wait('c').could_cut_through('a'));  // its gate is closed
+  EXPECT_FALSE(port().at(0).could_cut_through('b'));           // its class is not cut through
+  EXPECT_FALSE(port().at(0).start('b').could_cut_through('a'));
+  EXPECT_FALSE(port().at(0).start('b').at(959 * ns).could_cut_through('a'));
+  EXPECT_TRUE(port().at(0).start('b').at(960 * ns).could_cut_through('a'));
+  EXPECT_FALSE(port().at(0).start('b').wait('d').at(1 * ns).could_cut_through('a'));
+  EXPECT_FALSE(port().at(0).up(false).could_cut_through('a'));
+  EXPECT_FALSE(port().at(0).stuck(2, false).could_cut_through('a'));
 }
 
 }  // namespace

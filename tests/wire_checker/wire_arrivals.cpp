@@ -154,6 +154,7 @@ void WireChecker::settle_bridge(std::uint32_t index, Ps now) {
       if (outcome.drop && outcome.direction == 0xFFFF'FFFF && arrival.complete != now) arrival.was_dropped = true;
       if (arrival.complete != now && arrival.greatest_jitter == 0 && !outcome.drop && arrival.frame.length != 0 && directions_[outcome.direction]->checker.octet_time() != directions_[arrival.direction]->checker.octet_time())
         violations_.add(now, node.name, wire_checker::name_of(outcome.stream, outcome.sequence) + " is cut through to a link of another rate");
+      if (!outcome.drop && arrival.complete == now) check_why_stored(index, arrival, outcome.direction, now);
     }
     if (!found) violations_.add(now, node.name, wire_checker::name_of(outcome.stream, outcome.sequence) + " comes from nowhere");
   }
@@ -162,6 +163,19 @@ void WireChecker::settle_bridge(std::uint32_t index, Ps now) {
   for (Arrival& arrival : node.arrivals)
     if (arrival.looked_at == now && !arrival.lost) arrived.push_back(&arrival);
   if (node.ingress) run_ingress(index, now, arrived);
+}
+
+/// A frame that goes on when it has come wholly, although nothing kept it from being cut through.
+void WireChecker::check_why_stored(std::uint32_t index, const Arrival& arrival, std::uint32_t direction, Ps now) {
+  if (std::ranges::find(arrival.missed, direction) == arrival.missed.end()) return;
+  // Which of several copies goes on can't be told.
+  const auto is_copy = [&](const Arrival& other) {
+    return is_same(other.frame, arrival.frame.stream, arrival.frame.sequence);
+  };
+  if (std::ranges::count_if(nodes_[index]->arrivals, is_copy) > 1) return;
+  violations_.add(now, nodes_[index]->name,
+                  wire_checker::name_of(arrival.frame.stream, arrival.frame.sequence) +
+                      " is stored although it could be cut through");
 }
 
 /// What comes in by one port goes on in that order, whatever the jitter.

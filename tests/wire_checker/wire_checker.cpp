@@ -88,7 +88,9 @@ void WireChecker::record(const sim::TraceRecord& record) {
   if (record.time.ps() < batch_time_) violations_.add(record.time.ps(), "trace", "time runs backwards");
   // What the model says of its reasons is no evidence.
   const auto kind = static_cast<Occurrence>(record.kind);
-  if (kind == Occurrence::refused || kind == Occurrence::processing || kind == Occurrence::arrived || kind == Occurrence::separated) return;
+  if (kind == Occurrence::refused || kind == Occurrence::stored || kind == Occurrence::processing ||
+      kind == Occurrence::arrived || kind == Occurrence::separated)
+    return;
   Recorded recorded{record, {}, long_ago, false};
   if (kind != Occurrence::gates_changed) {
     const models::FrameIndex handle{static_cast<std::uint32_t>(record.what)};
@@ -116,6 +118,8 @@ void WireChecker::instant(Ps now) {
   std::set<std::uint32_t> touched;
   for (const Recorded& recorded : batch)
     if (const std::uint32_t where = recorded.record.where.index; where < places_.size() && places_[where].direction != 0xFFFF'FFFF) touched.insert(places_[where].direction);
+  const std::set<std::uint32_t> cutting = ports_with_headers(now);
+  touched.insert(cutting.begin(), cutting.end());
   const std::size_t first_change = next_change_;
   while (next_change_ < changes_.size() && changes_[next_change_].at <= now) ++next_change_;
   for (std::size_t c = first_change; c < next_change_; ++c) {
@@ -130,6 +134,58 @@ void WireChecker::instant(Ps now) {
   attribute(now, batch);
   for (const Recorded& recorded : batch) feed(recorded);
   for (const std::uint32_t direction : touched) directions_[direction]->checker.end();
+  note_what_could_be_cut_through(cutting, now);
+}
+
+/// The ports of nodes that have a header at this instant, if they cut anything through.
+std::set<std::uint32_t> WireChecker::ports_with_headers(Ps now) const {
+  std::set<std::uint32_t> ports;
+  for (auto wake = wakes_.lower_bound({now, 0}); wake != wakes_.end() && wake->first == now; ++wake) {
+    const Node& node = *nodes_[wake->second];
+    const auto is_header = [&](const Arrival& arrival) { return arrival.looked_at == now && arrival.complete > now; };
+    if (!node.forwards || std::ranges::none_of(node.arrivals, is_header)) continue;
+    for (const std::uint32_t direction : direction_of_port_[wake->second])
+      if (directions_[direction]->from == wake->second && directions_[direction]->checker.config().cut_through != 0)
+        ports.insert(direction);
+  }
+  return ports;
+}
+
+/// Frames of one instant that nothing kept from being cut through, and which were not: at these ports they must not
+/// turn up later.
+void WireChecker::note_what_could_be_cut_through(const std::set<std::uint32_t>& ports, Ps now) {
+  for (const std::uint32_t port : ports) {
+    const Direction& direction = *directions_[port];
+    const std::optional<std::uint32_t>& ingress = plan_.nodes[direction.from].ingress;
+    // Members of redundant streams may leave with other tags than they came with.
+    if (ingress &&
+        !(plan_.ingress_configs[*ingress].splits.empty() && plan_.ingress_configs[*ingress].recoveries.empty()))
+      continue;
+    for (Arrival& arrival : nodes_[direction.from]->arrivals) {
+      const Direction& incoming = *directions_[arrival.direction];
+      if (arrival.looked_at != now || arrival.complete <= now || arrival.lost || arrival.was_dropped) continue;
+      if (incoming.link == direction.link || incoming.duplicates ||
+          incoming.checker.octet_time() != direction.checker.octet_time())
+        continue;
+      models::Priority priority = arrival.frame.priority;
+      if (!arrival.verdicts.empty()) priority = arrival.verdicts.front().ipv.value_or(priority);
+      if (direction.checker.could_cut_through(arrival.frame, priority)) arrival.missed.push_back(port);
+    }
+  }
+}
+
+/// The record is of a start before the frame has come wholly.
+bool WireChecker::is_cut_through(const Direction& direction, const Recorded& recorded) const {
+  if (recorded.is_of_queue || !nodes_[direction.from]->forwards || is_own(direction.from, recorded.frame.stream, 0))
+    return false;
+  const Ps now = recorded.record.time.ps();
+  bool has_header = false, is_whole = false;
+  for (const Arrival& arrival : nodes_[direction.from]->arrivals) {
+    if (arrival.frame.stream != recorded.frame.stream || arrival.frame.sequence != recorded.frame.sequence) continue;
+    has_header = has_header || (arrival.looked_at == now && arrival.complete > now);
+    is_whole = is_whole || arrival.complete == now;
+  }
+  return has_header && !is_whole;
 }
 
 void WireChecker::apply(const Change& change) {
@@ -154,7 +210,9 @@ void WireChecker::feed(const Recorded& recorded) {
   const std::uint32_t index = record.where.index < places_.size() ? places_[record.where.index].direction : 0xFFFF'FFFF;
   if (index == 0xFFFF'FFFF || occurrence == Occurrence::gates_changed) return;
   Direction& direction = *directions_[index];
-  const SeenFrame seen{models::FrameIndex{static_cast<std::uint32_t>(record.what)}, recorded.frame, recorded.eligible};
+  const bool is_cut = occurrence == Occurrence::started && is_cut_through(direction, recorded);
+  const SeenFrame seen{models::FrameIndex{static_cast<std::uint32_t>(record.what)}, recorded.frame, recorded.eligible,
+                       is_cut};
   const auto detail = models::TransmissionDetail::unpack(record.detail);
   switch (occurrence) {
     case Occurrence::started:

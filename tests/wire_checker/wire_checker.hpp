@@ -78,12 +78,16 @@ class WireChecker final : public sim::TraceSink {
   void announce_cut_through();
   void work_up_to(Ps time, bool with_records);
   void instant(Ps now);
+  std::set<std::uint32_t> ports_with_headers(Ps now) const;
+  void note_what_could_be_cut_through(const std::set<std::uint32_t>& ports, Ps now);
+  bool is_cut_through(const Direction& direction, const Recorded& recorded) const;
   void apply(const Change& change);
   void attribute(Ps now, std::vector<Recorded>& batch);
   bool is_own(std::uint32_t node, models::StreamIndex stream, std::uint32_t direction) const;
   bool is_taken_in(std::uint32_t node, const Arrival& arrival) const;
   void settle_host(std::uint32_t node, Ps now);
   void check_nobody_overtakes(std::uint32_t index, Ps now);
+  void check_why_stored(std::uint32_t index, const Arrival& arrival, std::uint32_t direction, Ps now);
   void settle_bridge(std::uint32_t node, Ps now);
   void run_ingress(std::uint32_t node, Ps now, std::vector<Arrival*>& arrived);
   void check_order(const Arrival& arrival, Ps now);

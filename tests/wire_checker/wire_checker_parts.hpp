@@ -26,6 +26,7 @@ struct WireChecker::Arrival {
   bool has_outcome = false;
   bool was_dropped = false;            // by the node, when only its header was there
   std::vector<IngressOracle::Verdict> verdicts;
+  std::vector<std::uint32_t> missed;  // directions that it could have left by when only its header was there
 };
 
 struct WireChecker::Direction {

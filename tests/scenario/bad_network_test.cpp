@@ -103,7 +103,7 @@ const BadCase nodes_cases[] = {
      R"(2:33: error at /network/links/0/length: negative: found "-3m", expected a length that is not negative)"},
     {"RateWithoutExactOctets", with_links(R"({"ends": ["a", "sw"], "rate": "30Mbps"},
 {"ends": ["b", "sw"]})"),
-     R"(2:31: error at /network/links/0/rate: a rate whose octet does not last a whole number of picoseconds: found 30Mbps, expected a rate of Ethernet such as 10Mbps, 100Mbps, 1Gbps, 2.5Gbps, 5Gbps, 10Gbps, 25Gbps, 40Gbps, 50Gbps or 100Gbps)"},
+     R"(2:31: error at /network/links/0/rate: a rate whose octet does not last a whole number of picoseconds: found 30Mbps, expected a rate that divides 8 Tb/s, the nearest 25.6Mbps and 31.25Mbps, or one of Ethernet such as 10Mbps, 100Mbps, 1Gbps, 2.5Gbps, 5Gbps, 10Gbps, 25Gbps, 40Gbps, 50Gbps or 100Gbps)"},
 };
 
 const BadCase generators_cases[] = {

@@ -14,6 +14,18 @@ namespace {
 
 constexpr std::int64_t ps_per_millimetre = 5;  // 5 ns/m, light in copper and glass
 
+/// The nearest rates below and above whose octet lasts a whole number of picoseconds: the divisors of 8 Tb/s, 2^15
+/// times 5^12.
+std::pair<DataRate, DataRate> nearest_exact_rates(DataRate rate) {
+  std::uint64_t below = 1, above = DataRate::ps_in_8_seconds;
+  for (std::uint64_t fives = 1, b = 0; b <= 12; ++b, fives *= 5)
+    for (std::uint64_t each = fives, a = 0; a <= 15; ++a, each *= 2) {
+      if (each < rate.bits_per_second) below = std::max(below, each);
+      if (each > rate.bits_per_second) above = std::min(above, each);
+    }
+  return {DataRate{below}, DataRate{above}};
+}
+
 class Builder {
  public:
   Builder(const NetworkSection& network, json::Diagnostics& diagnostics) : network_(network), diagnostics_(diagnostics) {}
@@ -211,9 +223,13 @@ class Builder {
   }
 
   void check_rate(DataRate rate, const json::Place& place) {
-    if (!rate.has_exact_octet_time())
-      diagnostics_.error(place, "a rate whose octet does not last a whole number of picoseconds",
-                         {json::to_text(rate), "a rate of Ethernet such as 10Mbps, 100Mbps, 1Gbps, 2.5Gbps, 5Gbps, 10Gbps, 25Gbps, 40Gbps, 50Gbps or 100Gbps"});
+    if (rate.has_exact_octet_time()) return;
+    const auto [below, above] = nearest_exact_rates(rate);
+    diagnostics_.error(place, "a rate whose octet does not last a whole number of picoseconds",
+                       {json::to_text(rate), "a rate that divides 8 Tb/s, the nearest " + json::to_text(below) +
+                                                 " and " + json::to_text(above) +
+                                                 ", or one of Ethernet such as 10Mbps, 100Mbps, 1Gbps, 2.5Gbps, 5Gbps, "
+                                                 "10Gbps, 25Gbps, 40Gbps, 50Gbps or 100Gbps"});
   }
 
   static Duration delay_of(const Link& link) {

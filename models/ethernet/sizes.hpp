@@ -16,6 +16,7 @@ inline constexpr Octets frame_check_sequence{4};
 inline constexpr Octets mcrc{4};             // at the end of a fragment that is not the last (IEEE 802.3 clause 99)
 inline constexpr Octets minimum_frame{64};   // DA to FCS, the tag included
 inline constexpr Octets maximum_msdu{1500};  // the octets after the EtherType
+inline constexpr Octets largest_msdu{9000};  // of jumbo frames, which no standard knows
 inline constexpr Octets ipv4_and_udp_headers{28};
 
 /// The length from DA to FCS of a frame with an MSDU of that many octets; padded to the minimum.

@@ -120,7 +120,8 @@ std::uint32_t ipv4_address_of(models::AddressIndex address, std::uint32_t first_
 }
 
 std::span<const std::byte> encode_frame(const Frame& frame, const FrameEncoding& encoding, FrameBuffer& buffer) {
-  TAKT_CHECK(frame.length >= models::minimum_frame.count && frame.length <= buffer.size(), "a frame has 64 to 2000 octets");
+  TAKT_CHECK(frame.length >= models::minimum_frame.count && frame.length <= buffer.size(),
+             "a frame has 64 octets to those of the longest jumbo frame");
   const std::span<std::byte> octets = std::span(buffer).first(frame.length - std::size_t{models::frame_check_sequence.count});
   std::fill(octets.begin(), octets.end(), std::byte{0});
   NetworkWriter writer(octets);

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "models/ethernet/mac_address.hpp"
+#include "models/ethernet/sizes.hpp"
 #include "models/frer/r_tag.hpp"
 #include "models/network.hpp"
 
@@ -35,8 +36,8 @@ struct FrameEncoding {
   std::uint32_t ip_group = 0;                  ///< IPv4 multicast address to which it goes; 0: see ipv4_address_of
 };
 
-/// Room for the longest frame (IEEE 802.3 clause 3.2.7: envelope frames have 2000 octets).
-using FrameBuffer = std::array<std::byte, 2000>;
+/// Room for the longest jumbo frame with all its tags.
+using FrameBuffer = std::array<std::byte, models::frame_length(models::largest_msdu, true, true).count>;
 
 /// 10.x.y.z for a node, 239.x.y.z for a group; x.y.z is the index of the address, plus one for a node so that it is not 10.0.0.0.
 std::uint32_t ipv4_address_of(models::AddressIndex address, std::uint32_t first_group);

@@ -18,8 +18,7 @@ using scenario::Scenario;
 using sim::Duration;
 
 constexpr Duration ns = Duration::from_ps(1'000);
-constexpr Duration greatest = Duration::from_ps(1'000'000'000'000);   // as the table allows
-constexpr sim::Octets longest_frame{1522};
+constexpr Duration greatest = Duration::from_ps(1'000'000'000'000);  // as the table allows
 
 /// The greatest margin that fits, to the ns, if `good` does: steps that double, then halves of the last one.
 Duration greatest_margin(Duration good, const std::function<bool(Duration)>& fits) {
@@ -50,7 +49,9 @@ std::string too_little_time(const scenario::GateProblem& problem, const scenario
     for (const scenario::ScheduledHop& hop : stream.hops) scheduled[hop.port] = static_cast<models::GateStates>(scheduled[hop.port] | 1u << hop.traffic_class);
   for (std::size_t p = 0; p < problem.ports.size(); ++p) {
     if (schedule.lists[p].entries.empty()) continue;
-    const Duration needed = problem.ports[p].gap * static_cast<std::int64_t>(models::wire_length(longest_frame).count) / models::inter_packet_gap.count;
+    const Duration needed = problem.ports[p].gap *
+                            static_cast<std::int64_t>(models::wire_length(problem.ports[p].longest_frame).count) /
+                            models::inter_packet_gap.count;
     if (longest_for_others(schedule.lists[p], scheduled[p]) < needed) return fmt::format("no time is left for a frame of another class at {}", json::quote(problem.ports[p].name));
   }
   return {};

@@ -176,6 +176,7 @@ struct NodePorts {
   Queues queues;
   std::vector<Egress> egress;
   std::optional<GateLimits> gate_limits = {};
+  std::optional<Octets> mtu = {};  ///< as the network says if absent
   bool operator==(const NodePorts&) const = default;
 };
 
@@ -267,6 +268,7 @@ struct Generator {
   std::string station_prefix = "st";
   std::optional<Latency> forwarding_jitter = {};
   std::optional<GateLimits> gate_limits = {};
+  std::optional<Octets> mtu = {};
   bool operator==(const Generator&) const = default;
 };
 
@@ -275,6 +277,7 @@ struct NetworkSection {
   json::NameMap<Node> nodes;
   std::vector<Link> links;
   std::vector<Generator> generate;
+  Octets mtu{1500};
   bool operator==(const NetworkSection&) const = default;
 };
 

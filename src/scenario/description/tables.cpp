@@ -1,7 +1,8 @@
 // The vocabulary of scenario files: for each struct of description.hpp the table of its fields. Decoding, the resolved copy
 // and the JSON Schema are all made from these tables. Networks have a file of their own.
-#include "scenario/description/description.hpp"
+#include "models/ethernet/sizes.hpp"
 #include "plant/limits.hpp"
+#include "scenario/description/description.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -109,7 +110,10 @@ const json::Object& describe(json::Type<Stream>) {
       required<&Stream::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
       required<&Stream::from>("from", "The host that sends."),
       required<&Stream::to>("to", "The host that receives, or several (multicast)."),
-      optional<&Stream::payload>("payload", "Octets of user data in each frame.", {.max = Octets{1500}}),
+      optional<&Stream::payload>(
+          "payload",
+          "Octets of user data in each frame; with all headers at most the \"mtu\" of each node on the path.",
+          {.max = models::largest_msdu}),
       optional<&Stream::encapsulation>("encapsulation", "What stands before the payload."),
       optional<&Stream::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
       optional<&Stream::host_priority>("host_priority", "Priority by which the sender's own interface queues untagged frames; they do not bear it, so that switches take them for priority 0.", {.max = 7}),

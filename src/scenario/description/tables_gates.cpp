@@ -18,8 +18,11 @@ const json::Enumeration& describe(json::Type<GatePlanning>) {
 
 const json::Enumeration& describe(json::Type<GateGuard>) {
   static constexpr json::EnumName names[] = {
-      name(GateGuard::length_aware, "length-aware", "other classes close an inter-packet gap before a window; ports start no frame that would not end by then"),
-      name(GateGuard::longest_frame, "longest-frame", "they close the time of a frame of 1522 octets before, for switches that do not look at the length"),
+      name(GateGuard::length_aware, "length-aware",
+           "other classes close an inter-packet gap before a window; ports start no frame that would not end by then"),
+      name(GateGuard::longest_frame, "longest-frame",
+           "they close the time of the longest frame before, 1522 octets where there are no jumbo frames, for switches "
+           "that do not look at the length"),
   };
   static constexpr json::Enumeration table = json::enumeration<GateGuard>("a guard", names);
   return table;

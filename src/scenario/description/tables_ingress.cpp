@@ -1,5 +1,6 @@
 // The vocabulary of what comes in: identification, policing, shaping by ATS, CQF, and redundant streams. See tables.cpp.
 #include "models/egress/cyclic_schedule.hpp"
+#include "models/ethernet/sizes.hpp"
 #include "scenario/description/ingress.hpp"
 
 namespace takt::scenario {
@@ -79,11 +80,17 @@ const json::Object& describe(json::Type<IdentifiedStream>) {
 
 const json::Object& describe(json::Type<StreamFilterEntry>) {
   static constexpr json::Field fields[] = {
-      optional<&StreamFilterEntry::stream>("stream", "Frames of this stream: a name under \"streams\" of this ingress, or a stream of the scenario (null identification). Any frame if absent."),
-      optional<&StreamFilterEntry::pcp>("pcp", "Frames of this priority; any if absent. Untagged frames have 0.", {.max = 7}),
-      optional<&StreamFilterEntry::max_sdu>("max_sdu", "Most octets after the EtherType; longer frames are dropped.", {.min = Octets{1}, .max = Octets{1506}}),
-      optional<&StreamFilterEntry::block_oversize>("block_oversize", "After one frame that is too long drop all (StreamBlockedDueToOversizeFrame)."),
-      optional<&StreamFilterEntry::gate>("gate", "The stream gate that frames pass; \"cqf\" is the one that CQF makes."),
+      optional<&StreamFilterEntry::stream>("stream",
+                                           "Frames of this stream: a name under \"streams\" of this ingress, or a "
+                                           "stream of the scenario (null identification). Any frame if absent."),
+      optional<&StreamFilterEntry::pcp>("pcp", "Frames of this priority; any if absent. Untagged frames have 0.",
+                                        {.max = 7}),
+      optional<&StreamFilterEntry::max_sdu>("max_sdu", "Most octets after the EtherType; longer frames are dropped.",
+                                            {.min = Octets{1}, .max = models::largest_msdu + models::r_tag}),
+      optional<&StreamFilterEntry::block_oversize>(
+          "block_oversize", "After one frame that is too long drop all (StreamBlockedDueToOversizeFrame)."),
+      optional<&StreamFilterEntry::gate>("gate",
+                                         "The stream gate that frames pass; \"cqf\" is the one that CQF makes."),
       optional<&StreamFilterEntry::meter>("meter", "The flow meter that frames pass."),
       optional<&StreamFilterEntry::ats>("ats", "The ATS scheduler that gives frames their eligibility time."),
   };

@@ -1,7 +1,8 @@
 // The vocabulary of networks: nodes, ports, links, generators. See tables.cpp.
 #include "models/egress/cyclic_schedule.hpp"
-#include "scenario/description/description.hpp"
+#include "models/ethernet/sizes.hpp"
 #include "plant/limits.hpp"
+#include "scenario/description/description.hpp"
 
 namespace takt::scenario {
 
@@ -162,7 +163,8 @@ const json::Object& describe(json::Type<Share>) {
 const json::Object& describe(json::Type<MaxSdu>) {
   static constexpr json::Field fields[] = {
       required<&MaxSdu::traffic_class>("class", "The traffic class.", {.max = 7}),
-      required<&MaxSdu::size>("size", "Most octets after the EtherType; longer frames are dropped.", {.min = Octets{1}, .max = Octets{1500}}),
+      required<&MaxSdu::size>("size", "Most octets after the EtherType; longer frames are dropped.",
+                              {.min = Octets{1}, .max = models::largest_msdu}),
   };
   static constexpr json::Object table = json::object<MaxSdu>("max_sdu", "queueMaxSDU of a class.", fields);
   return table;
@@ -220,8 +222,14 @@ constexpr json::Field traffic_classes_field = optional<&NodePorts::traffic_class
 template <class Owner>
 constexpr json::Field gate_limits_field = optional<&NodePorts::gate_limits, Owner>("gate_limits", "What its gates can do.");
 template <class Owner>
-constexpr json::Field forwarding_delay_field =
-    optional<&Relay::forwarding_delay, Owner>("forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s});
+constexpr json::Field mtu_field =
+    optional<&NodePorts::mtu, Owner>("mtu",
+                                     "Most octets after the EtherType of a frame that its ports pass, tags not "
+                                     "counted: more than 1500 are jumbo frames. As the network says if absent.",
+                                     {.min = models::maximum_msdu, .max = models::largest_msdu});
+template <class Owner>
+constexpr json::Field forwarding_delay_field = optional<&Relay::forwarding_delay, Owner>(
+    "forwarding_delay", "From the last bit in (cut through: the header) to the egress queue.", {.max = 1_s});
 template <class Owner>
 constexpr json::Field forwarding_jitter_field = optional<&Relay::forwarding_jitter, Owner>(
     "forwarding_jitter", "A random time besides, of at most 1 s, drawn for each frame. Frames that come in by one port do not overtake each other: one that has drawn less waits for those before it.");
@@ -240,6 +248,7 @@ const json::Object& describe(json::Type<HostNode>) {
       optional<&NodePorts::queues, HostNode>("queues", "The queues of each network interface."),
       optional<&NodePorts::egress, HostNode>("egress", "Gates and shapers of the network interfaces.", {.max_items = 16}),
       gate_limits_field<HostNode>,
+      mtu_field<HostNode>,
       processing_field<HostNode>,
       cryptography_field<HostNode>,
       offers_field<HostNode>,
@@ -259,6 +268,7 @@ const json::Object& describe(json::Type<SwitchNode>) {
       optional<&NodePorts::queues, SwitchNode>("queues", "The queues of each port."),
       optional<&NodePorts::egress, SwitchNode>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 4096}),
       gate_limits_field<SwitchNode>,
+      mtu_field<SwitchNode>,
       ingress_field<SwitchNode>,
   };
   static constexpr json::Object table = json::object<SwitchNode>("switch", "A bridge: stores and forwards, or cuts through.", fields);
@@ -275,6 +285,7 @@ const json::Object& describe(json::Type<StationNode>) {
       optional<&NodePorts::queues, StationNode>("queues", "The queues of each port."),
       optional<&NodePorts::egress, StationNode>("egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.", {.max_items = 16}),
       gate_limits_field<StationNode>,
+      mtu_field<StationNode>,
       ingress_field<StationNode>,
       optional<&StationNode::bypass>("bypass", "A relay joins the cables at ports 0 and 1 while the station is down."),
       optional<&StationNode::bypass_switching>("bypass_switching", "How long the relay takes, after the crash and when the station is back; all is dark meanwhile.", {.min = 1_us, .max = 10_s}),
@@ -351,6 +362,8 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::traffic_classes>("traffic_classes", "Of all ports."),
       optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches or stations.", {.max_items = 1}),
       optional<&Generator::gate_limits>("gate_limits", "What the gates of the switches or stations can do."),
+      optional<&Generator::mtu>("mtu", "Of all its nodes, as that of a node.",
+                                {.min = models::maximum_msdu, .max = models::largest_msdu}),
       optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches or stations."),
   };
   static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);
@@ -361,7 +374,10 @@ const json::Object& describe(json::Type<NetworkSection>) {
   static constexpr json::Field fields[] = {
       optional<&NetworkSection::nodes>("nodes", "Hosts, switches and stations by name.", {.max_items = most_names}),
       optional<&NetworkSection::links>("links", "The cables between them.", {.max_items = most_names}),
-      optional<&NetworkSection::generate>("generate", "Generated topologies; nodes and links may add to them.", {.max_items = 64}),
+      optional<&NetworkSection::generate>("generate", "Generated topologies; nodes and links may add to them.",
+                                          {.max_items = 64}),
+      optional<&NetworkSection::mtu>("mtu", "Of nodes that do not say it themselves.",
+                                     {.min = models::maximum_msdu, .max = models::largest_msdu}),
   };
   static constexpr json::Object table = json::object<NetworkSection>("network", "The network.", fields);
   return table;

@@ -14,8 +14,6 @@
 namespace takt::scenario {
 namespace {
 
-constexpr Octets longest_frame{1522};
-
 class Extraction {
  public:
   Extraction(const Resolved& resolved, const Timings& timings, json::Diagnostics& diagnostics) : r_(resolved), timing_(timings.of_streams), gates_(*resolved.scenario.gates), diagnostics_(diagnostics) {}
@@ -154,8 +152,11 @@ class Extraction {
     const auto [found, is_new] = ports_.emplace(key_of(at), static_cast<std::uint32_t>(problem_.ports.size()));
     if (!is_new) return found->second;
     const Duration gap = octet * models::inter_packet_gap.count;
-    const Duration guard = gates_.guard == GateGuard::longest_frame ? octet * models::wire_length(longest_frame).count : gap;
-    problem_.ports.push_back({models::NodeIndex{from}, at.end->port, r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name, gap, guard, list_limits_of(r_.topology.nodes[from])});
+    const TopologyNode& node = r_.topology.nodes[from];
+    const Octets longest = models::frame_length(node.mtu, true);
+    const Duration guard = gates_.guard == GateGuard::longest_frame ? octet * models::wire_length(longest).count : gap;
+    problem_.ports.push_back({models::NodeIndex{from}, at.end->port, node.name + " to " + r_.topology.nodes[to].name,
+                              gap, guard, list_limits_of(node), longest});
     scheduled_classes_.push_back(0);
     return found->second;
   }

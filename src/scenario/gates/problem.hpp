@@ -34,6 +34,7 @@ struct GatedPort {
   sim::Duration gap;                        ///< the inter-packet gap at the link's rate
   sim::Duration guard;                      ///< for how long before a window the other classes are closed; at least the gap
   ListLimits limits{};                      ///< of its device
+  sim::Octets longest_frame{1522};          ///< that the node passes, with a tag
   bool operator==(const GatedPort&) const = default;
 };
 

@@ -42,6 +42,7 @@ std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   std::optional<MemberPaths> members;
   if (wanted.redundancy != nullptr) members = member_paths(wanted);
   std::vector<Path> paths = members ? members->paths : wanted.redundancy != nullptr ? std::vector<Path>{} : paths_of(wanted);
+  if (diagnostics_.errors() == errors_before) check_size(wanted, paths);
   if (diagnostics_.errors() != errors_before) return std::nullopt;
 
   for (const Path& path : paths) path_nodes_ += path.size();
@@ -89,13 +90,44 @@ void StreamBuilder::check_names_of_paths(const NewStream& wanted) {
   for (std::size_t i = 0; i < wanted.redundancy->paths->size(); ++i) check((*wanted.redundancy->paths)[i], wanted.redundancy->where.at("paths", i));
 }
 
+json::Place StreamBuilder::place_of_size(const NewStream& wanted) const {
+  return wanted.where.at(wanted.of_program ? "fields" : "payload");
+}
+
+/// Whether some node lets frames of that length pass.
 bool StreamBuilder::check_size(const NewStream& wanted) {
   const Octets msdu = wanted.headers + wanted.payload;
-  if (msdu <= models::maximum_msdu) return true;
+  Octets most = models::maximum_msdu;
+  if (msdu > most && !wanted.of_program)
+    for (const TopologyNode& node : r_.topology.nodes) most = std::max(most, node.mtu);
+  if (msdu <= most) return true;
+  std::string expected = "at most " + std::to_string(most.count) + " with all headers";
+  if (most < models::largest_msdu && !wanted.of_program)
+    expected += ", or jumbo frames, by \"mtu\" of \"network\" or of each node on the path";
   // Without IP and UDP it might fit.
-  diagnostics_.error_unless(diagnostics_.is_refused(wanted.where.at("encapsulation")), wanted.of_program ? wanted.where.at("fields") : wanted.where.at("payload"), "more than one frame",
-                     {std::to_string(msdu.count) + " octets after the EtherType", "at most 1500 with all headers"});
+  diagnostics_.error_unless(diagnostics_.is_refused(wanted.where.at("encapsulation")), place_of_size(wanted),
+                            "more than one frame",
+                            {std::to_string(msdu.count) + " octets after the EtherType", std::move(expected)});
   return false;
+}
+
+/// Whether each node on the paths does, and each to which rerouting may lead the frames.
+void StreamBuilder::check_size(const NewStream& wanted, const std::vector<Path>& paths) {
+  const Octets msdu = wanted.headers + wanted.payload;
+  if (msdu <= models::maximum_msdu) return;
+  const auto refuse = [&](const TopologyNode& node, const std::string& why) {
+    diagnostics_.error(place_of_size(wanted), "longer than the MTU of a node " + why,
+                       {std::to_string(msdu.count) + " octets after the EtherType; " + json::quote(node.name) +
+                            " passes " + std::to_string(node.mtu.count),
+                        "at most that with all headers, or \"mtu\": \"" + std::to_string(msdu.count) + "B\" of " +
+                            json::quote(node.name)});
+  };
+  for (const Path& path : paths)
+    for (const std::uint32_t node : path)
+      if (r_.topology.nodes[node].mtu < msdu) return refuse(r_.topology.nodes[node], "on its path");
+  if (!r_.scenario.rerouting) return;
+  for (const TopologyNode& node : r_.topology.nodes)
+    if (node.forwards() && node.mtu < msdu) return refuse(node, "that rerouting may lead it over");
 }
 
 std::vector<Path> StreamBuilder::paths_of(const NewStream& wanted) {

@@ -46,6 +46,8 @@ class StreamBuilder {
 
  private:
   bool check_size(const NewStream& wanted);
+  void check_size(const NewStream& wanted, const std::vector<Path>& paths);
+  json::Place place_of_size(const NewStream& wanted) const;
   void check_names_of_paths(const NewStream& wanted);
   std::vector<Path> paths_of(const NewStream& wanted);
   std::optional<Path> way_between(const NewStream& wanted, std::uint32_t to) const;

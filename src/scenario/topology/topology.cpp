@@ -87,6 +87,7 @@ class Builder {
       return std::nullopt;
     }
     topology_.nodes.push_back({std::move(name), std::move(description), std::move(where)});
+    topology_.nodes.back().mtu = ports_of(topology_.nodes.back().description).mtu.value_or(network_.mtu);
     topology_.neighbours.emplace_back();
     used_ports_.emplace_back();
     return next;
@@ -127,12 +128,14 @@ class Builder {
   }
 
   static Node node_of(models::NodeKind kind, const Generator& generator) {
-    const NodePorts ports{generator.traffic_classes, generator.queues, generator.egress, generator.gate_limits};
+    const NodePorts ports{generator.traffic_classes, generator.queues, generator.egress, generator.gate_limits,
+                          generator.mtu};
     const EndStation end_station{generator.os};
     const Relay relay{.forwarding_delay = generator.forwarding_delay, .forwarding_jitter = generator.forwarding_jitter, .ingress = generator.ingress};
     switch (kind) {
       case models::NodeKind::host:
-        return HostNode{{generator.traffic_classes, generator.queues, {}}, end_station, generator.where};
+        return HostNode{
+            {generator.traffic_classes, generator.queues, {}, {}, generator.mtu}, end_station, generator.where};
       case models::NodeKind::bridge:
         return SwitchNode{ports, relay, generator.where};
       case models::NodeKind::station:

@@ -33,6 +33,7 @@ struct TopologyNode {
   bool is_end_station() const { return end_station_of(description) != nullptr; }
   bool forwards() const { return relay_of(description) != nullptr; }
   bool is_of_unknown_kind = false;   ///< its "kind" was refused
+  Octets mtu{1500};                  ///< most octets after the EtherType, tags not counted
 };
 
 /// One end of a link as seen from a node.

@@ -110,8 +110,20 @@ class Extraction {
       }
     }
     scheduled_.insert(stream.index.value);
-    problem_.streams.push_back(std::move(made));
-    streams_.push_back(stream.index);
+    add_train(made, timing, stream.index);
+  }
+
+  /// Each frame of a burst is one a period. Those that are handed over at one instant leave in their order, the others
+  /// are there at instants of their own.
+  void add_train(const ScheduledStream& first, const FrameTiming& timing, models::StreamIndex stream) {
+    for (std::uint32_t frame = 0; frame < timing.frames; ++frame) {
+      ScheduledStream made = first;
+      if (frame > 0) made.name += " frame " + std::to_string(frame);
+      made.release += timing.spacing * frame;
+      if (timing.spacing > Duration()) made.train += frame;
+      problem_.streams.push_back(std::move(made));
+      streams_.push_back(stream);
+    }
   }
 
   std::string check_node(std::uint32_t node) const {

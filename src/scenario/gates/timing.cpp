@@ -8,6 +8,8 @@
 namespace takt::scenario {
 namespace {
 
+constexpr std::uint32_t most_frames_of_a_train = 256;
+
 class TimingWalk {
  public:
   explicit TimingWalk(const Resolved& resolved) : r_(resolved) {
@@ -61,9 +63,17 @@ class TimingWalk {
       const Stream& stream = r_.scenario.streams[i];
       const models::StreamIndex index = r_.plan.talkers[i].stream;
       FrameTiming timing;
-      if (stream.every) {
+      if (stream.every || stream.burst) {
         const models::OsLatency& os = os_of(r_.plan.streams[index.value].talker);
-        timing = after(stream.offset.value_or(Duration()), os.transmit.least(), stream.jitter + os.transmit.greatest(), *stream.every, trains_++);
+        const Duration period = stream.every ? *stream.every : stream.burst->every;
+        timing = after(stream.offset.value_or(Duration()), os.transmit.least(), stream.jitter + os.transmit.greatest(),
+                       period, trains_++);
+        if (stream.burst) {
+          timing.frames = stream.burst->frames;
+          timing.spacing = stream.burst->spacing;
+          timing.is_known = false;  // what chooses offsets without gates knows one frame a period
+          if (timing.spacing > Duration()) trains_ += timing.frames - 1;
+        }
         if (stream.launch) {   // it is sent then, however early it was there
           timing.release = stream.offset.value_or(Duration()) + *stream.launch;
           timing.early = Duration();
@@ -71,8 +81,11 @@ class TimingWalk {
         }
         if (stream.offset && stream.offset->is_auto) timing.choice = choice_of({i});
       }
-      if (!stream.every) timing.no_window = "no period: \"every\" is missing";
+      if (!stream.every && !stream.burst)
+        timing.no_window = "no period: \"every\" or \"burst\" is missing";
       else if (!promises_phase(stream)) timing.no_window = "no \"offset\" that promises when it is sent, or \"auto\"";
+      else if (timing.frames > most_frames_of_a_train)
+        timing.no_window = "bursts of more than " + std::to_string(most_frames_of_a_train) + " frames";
       else if (stream.launch) timing.no_window = "\"launch\", which is a plan of its own";
       else if (std::ranges::find(r_.plan.talker_ats, index, &models::TalkerAtsPlan::stream) != r_.plan.talker_ats.end()) timing.no_window = "an ATS scheduler at its talker, which may hold it";
       set(index, std::move(timing));

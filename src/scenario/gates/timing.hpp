@@ -10,9 +10,11 @@
 
 namespace takt::scenario {
 
-/// One frame a period, if it is known.
+/// One frame a period, or the frames of a burst, if it is known.
 struct FrameTiming {
   Duration period;
+  std::uint32_t frames = 1;  ///< in a period
+  Duration spacing;          ///< between them; 0: they are handed to the port at one instant, one behind the other
   Duration release;                        ///< by when the first frame is surely there; of an offset that is still to be chosen, with 0
   Duration early;                          ///< how much before its release, at most, a frame may be there
   std::uint32_t train = 0;                 ///< streams of one train are handed to the port at one instant, in their order

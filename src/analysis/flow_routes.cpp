@@ -92,7 +92,7 @@ class RouteMaker {
     for (const Path& path : stream.paths) {
       Ps way = 0;
       for (std::size_t at = 0; at + 1 < path.size() && path[at] != redundancy.merge; ++at) {
-        const GraphPort& port = graph_.ports[port_at_.at({path[at], *r_.topology.port_towards(path[at], path[at + 1])})];
+        const GraphPort& port = graph_.ports[port_at_.at({path[at], port_out(r_.topology, path, at)})];
         longest = std::max(longest, port.octet_time * models::wire_length(frame).count);
         way = sum(way, port.octet_time * models::wire_length(frame).count, port.propagation, r_.plan.nodes[path[at + 1]].greatest_forwarding_delay().ps());
       }
@@ -174,7 +174,7 @@ class RouteMaker {
     taken.shortest = taken.frame;
     taken.msdu = plan.headers + largest + models::r_tag;
     const models::PortConfig& config = r_.plan.port_configs[r_.plan.nodes[node].port_config];
-    pass_ingress(taken, config, plan, node, *r_.topology.port_towards(node, path[path.size() - 2]), address);
+    pass_ingress(taken, config, plan, node, port_in(r_.topology, path, path.size() - 1), address);
     const bool is_dropped_late = taken.ats && is_bounded(taken.ats->longest_residence);
     if (taken.policing.always_may_drop || taken.policing.meter || is_dropped_late || !taken.unsupported.empty())
       graph_.flows[flow].loss_at_host = "a stream filter may drop frames before the host of " + r_.plan.nodes[node].name;
@@ -212,10 +212,10 @@ class RouteMaker {
     Ps beyond = 0;
     for (std::size_t at = 0; at + 1 < path.size(); ++at) {
       if (is_bypassed != nullptr && (*is_bypassed)[at]) {
-        beyond = sum(beyond, graph_.ports[port_at_.at({path[at], *r_.topology.port_towards(path[at], path[at + 1])})].propagation);
+        beyond = sum(beyond, graph_.ports[port_at_.at({path[at], port_out(r_.topology, path, at)})].propagation);
         continue;
       }
-      const std::uint16_t port_number = *r_.topology.port_towards(path[at], path[at + 1]);
+      const std::uint16_t port_number = port_out(r_.topology, path, at);
       const scenario::OnHop here = redundancy != nullptr ? on[at] : scenario::OnHop{};
       const scenario::OnHop before = redundancy != nullptr && at > 0 ? on[at - 1] : scenario::OnHop{};
       const scenario::ResolvedRedundancy::Relay* const relay = redundancy != nullptr ? redundancy->relay_at(path[at]) : nullptr;
@@ -241,7 +241,7 @@ class RouteMaker {
         made.shortest = models::frame_length(plan.headers + smallest, tagged, here.r_tagged);
         made.is_copied_here = splits;
         const models::AddressIndex address = before.member ? redundancy->members[*before.member].destination : plan.destination;
-        const std::uint16_t in_port = at > 0 ? *r_.topology.port_towards(path[at], path[at - 1]) : std::uint16_t{0};
+        const std::uint16_t in_port = at > 0 ? port_in(r_.topology, path, at) : std::uint16_t{0};
         made.lowest_class = made.highest_class = config.traffic_class_of_priority[at == 0 ? plan.priority_at_talker() : plan.priority.value_or(0)];
         if (at > 0) pass_ingress(made, config, plan, path[at], in_port, address);   // what a station sends itself does not come in
         made.headers_come_first = at > 0 && cuts_through(path[at], plan.priority.value_or(0));

@@ -27,24 +27,25 @@ class PathFinder {
       if (!pass(path, plan_.talker.value)) return std::nullopt;
     } else {
       for (const scenario::Neighbour& neighbour : r_.topology.neighbours[plan_.talker.value])
-        if (!follow(path, neighbour.node)) return std::nullopt;
+        if (!follow(path, neighbour)) return std::nullopt;
     }
     return std::move(found_);
   }
 
  private:
-  bool follow(scenario::Path& path, std::uint32_t node) {
+  bool follow(scenario::Path& path, const scenario::Neighbour& neighbour) {
+    const std::uint32_t node = neighbour.node;
     const bool is_back = std::find(path.begin(), path.end(), node) != path.end();
     if (is_back && r_.plan.nodes[node].forwards()) return false;
     const std::size_t found_before = found_.size();
     const std::uint32_t before = path.back();
-    path.push_back(node);
+    append(r_.topology, path, neighbour);
     is_bypassed_.push_back(false);
     bool is_fine = is_back || go_on(path, before, node);   // back at its talker, a host, a frame ends
     is_bypassed_.back() = false;
     // What leads to no listener takes the ports up to there, too.
     if (is_fine && found_.size() == found_before) is_fine = add({path, is_bypassed_});
-    path.pop_back();
+    remove_last(path);
     is_bypassed_.pop_back();
     return is_fine;
   }
@@ -63,7 +64,7 @@ class PathFinder {
     const std::optional<std::uint16_t> came_by = r_.topology.port_towards(node, before);
     if (!came_by || *came_by > 1) return true;
     for (const scenario::Neighbour& neighbour : r_.topology.neighbours[node])
-      if (neighbour.port == 1 - *came_by && !follow(path, neighbour.node)) return false;
+      if (neighbour.port == 1 - *came_by && !follow(path, neighbour)) return false;
     return true;
   }
   bool is_taken_in(std::uint32_t node) const {
@@ -80,7 +81,7 @@ class PathFinder {
     if (entry == ports_.end()) return true;   // the frame is lost there
     for (const scenario::Neighbour& neighbour : r_.topology.neighbours[node]) {
       const bool came_by_it = path.size() > 1 && path[path.size() - 2] == neighbour.node;   // a bridge sends nothing back
-      if (entry->second.contains(neighbour.port) && !came_by_it && !follow(path, neighbour.node)) return false;
+      if (entry->second.contains(neighbour.port) && !came_by_it && !follow(path, neighbour)) return false;
     }
     return true;
   }

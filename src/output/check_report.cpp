@@ -15,7 +15,11 @@ constexpr std::size_t rows_of_page = 40;
 
 std::string path_text(const Resolved& r, const scenario::Path& path) {
   std::string text;
-  const auto name = [&](std::size_t i) { return r.topology.nodes[path[i]].name; };
+  // Where several links lead on, and it is not the first.
+  const auto name = [&](std::size_t i) {
+    const bool is_other = i < path.ports.size() && path.ports[i] != scenario::Path::first_link;
+    return r.topology.nodes[path[i]].name + (is_other ? fmt::format(":{}", path.ports[i]) : std::string());
+  };
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (path.size() > 12 && i == 5) {
       text += fmt::format(" > ... {} more ...", path.size() - 10);

@@ -48,7 +48,7 @@ std::optional<Path> way_round(const scenario::Topology& topology, std::uint32_t 
   if (cost[to] == ~std::uint64_t{0}) return std::nullopt;
   Path path{to};
   while (path.back() != from) path.push_back(before[path.back()]);
-  std::ranges::reverse(path);
+  std::ranges::reverse(path);  // of neighbours that several links join the first
   return path;
 }
 

@@ -80,12 +80,11 @@ std::vector<CriticalInstants::Visit> CriticalInstants::visits_of(std::size_t str
   for (const scenario::Path& path : found->paths) {
     Duration after;
     for (std::size_t hop = 0; hop + 1 < path.size(); ++hop) {
-      const auto port = resolved_->topology.port_towards(path[hop], path[hop + 1]);
-      if (!port) break;
-      visits.push_back({static_cast<std::uint64_t>(path[hop]) << 16 | *port, after});
+      const std::uint16_t port = port_out(resolved_->topology, path, hop);
+      visits.push_back({static_cast<std::uint64_t>(path[hop]) << 16 | port, after});
       for (const models::LinkPlan& link : resolved_->plan.links) {
-        const bool forth = link.a.node.value == path[hop] && link.a.port == *port;
-        if (!forth && !(link.b.node.value == path[hop] && link.b.port == *port)) continue;
+        const bool forth = link.a.node.value == path[hop] && link.a.port == port;
+        if (!forth && !(link.b.node.value == path[hop] && link.b.port == port)) continue;
         after += link.rate.octet_time() * (models::preamble_and_sfd + frame).count + link.delay + resolved_->plan.nodes[path[hop + 1]].forwarding_delay;
       }
     }

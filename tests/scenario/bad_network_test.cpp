@@ -18,19 +18,25 @@ const BadCase nodes_cases[] = {
     {"TwoKindsOfLatency",
      with_node(R"({"kind": "host", "os": {"receive": {"fixed": "1us", "exponential": {"mean": "1us"}}}})"),
      R"(2:73: error at /network/nodes/a/os/receive/exponential: fields that exclude each other: found "exponential" beside "fixed", expected exactly one of "fixed", "uniform", "normal", "exponential", "weibull", "log_normal" or "table")"},
-    {"LatencyMinAboveMax", with_node(R"({"kind": "host", "os": {"receive": {"exponential": {"mean": "1us"}, "min": "9us", "max": "2us"}}})"),
+    {"LatencyMinAboveMax",
+     with_node(R"({"kind": "host", "os": {"receive": {"exponential": {"mean": "1us"}, "min": "9us", "max": "2us"}}})"),
      R"(2:81: error at /network/nodes/a/os/receive/min: min above max: found 9us, expected at most 2us)"},
-    {"LatencyOfAnEmptyInterval", with_node(R"({"kind": "host", "os": {"receive": {"uniform": {"from": "2us", "to": "1us"}}}})"),
+    {"LatencyOfAnEmptyInterval",
+     with_node(R"({"kind": "host", "os": {"receive": {"uniform": {"from": "2us", "to": "1us"}}}})"),
      R"(2:53: error at /network/nodes/a/os/receive/uniform: an empty interval: found 2us to 1us, expected from at most to)"},
-    {"LatencyTableWithoutWeight", with_node(R"({"kind": "host", "os": {"receive": {"table": [{"value": "2us", "weight": 0}]}}})"),
+    {"LatencyTableWithoutWeight",
+     with_node(R"({"kind": "host", "os": {"receive": {"table": [{"value": "2us", "weight": 0}]}}})"),
      R"(2:51: error at /network/nodes/a/os/receive/table: a table without weight: found weights that are all 0, expected at least one positive weight)"},
     {"LatencyBeyondWhatAPortKeeps", with_node(R"({"kind": "host", "os": {"receive": "11s"}})"),
      R"(2:41: error at /network/nodes/a/os/receive: too long to receive: found 11s, expected at most 10s)"},
     {"JitterWithoutALimit", with_node(R"({"kind": "switch", "forwarding_jitter": {"exponential": {"mean": "1us"}}})"),
      R"(2:46: error at /network/nodes/a/forwarding_jitter: a jitter without a limit: found up to 24h, expected a "max" of at most 1s)"},
-    {"JitterWhereFramesAreCutThrough", with_node(R"({"kind": "switch", "forwarding_jitter": "1us", "egress": [{"cut_through": [3]}]})"),
+    {"JitterWhereFramesAreCutThrough",
+     with_node(R"({"kind": "switch", "forwarding_jitter": "1us", "egress": [{"cut_through": [3]}]})"),
      R"(2:46: error at /network/nodes/a/forwarding_jitter: jitter where frames are cut through: found "cut_through" in "egress", expected one of them)"},
-    {"JitterBesideCyclicQueuing", with_node(R"({"kind": "switch", "forwarding_jitter": "1us", "ingress": {"cqf": {"cycle": "1ms", "classes": [5, 6]}}})"),
+    {"JitterBesideCyclicQueuing",
+     with_node(
+         R"({"kind": "switch", "forwarding_jitter": "1us", "ingress": {"cqf": {"cycle": "1ms", "classes": [5, 6]}}})"),
      R"(2:46: error at /network/nodes/a/forwarding_jitter: jitter beside cyclic queuing: found "cqf", whose buffers frames reach at known times, expected one of them)"},
     {"ThreadsThatCannotBe", with_node(R"({"kind": "host", "cpu": {"cores": 2, "threads": [
 {"name": "a", "execution": "0s", "policy": "deadline", "priority": 3, "every": "1ms", "offset": "1ms"},
@@ -49,7 +55,8 @@ const BadCase nodes_cases[] = {
 5:10: error at /network/nodes/a/cpu/threads/2/name: not a name for a thread: found "c/d", expected no '/'
 6:45: error at /network/nodes/a/cpu/threads/3/stack/0: on two threads: found "receive" a second time, expected one thread for it
 6:56: error at /network/nodes/a/cpu/threads/3/stack/1: a part of what is not there: found "gptp", expected "gptp" in "clocks")"},
-    {"QueuesOutOfRange", with_node(R"({"kind": "host", "queues": {"frames": 0, "octets": "63B", "classes": [{"class": 8}]}})"),
+    {"QueuesOutOfRange",
+     with_node(R"({"kind": "host", "queues": {"frames": 0, "octets": "63B", "classes": [{"class": 8}]}})"),
      R"(2:44: error at /network/nodes/a/queues/frames: out of range: found the number 0, expected an integer from 1 to 4294967295
 2:57: error at /network/nodes/a/queues/octets: out of range: found "63B", expected a size of at least 64B
 2:86: error at /network/nodes/a/queues/classes/0/class: out of range: found the number 8, expected an integer from 0 to 7)"},

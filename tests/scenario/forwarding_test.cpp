@@ -1,4 +1,5 @@
-// What a bridge does with a frame between its two ports: ATS and the forwarding delay, cut-through.
+// What a bridge does with a frame between its two ports: ATS and the forwarding delay, cut-through; parallel links,
+// jumbo frames.
 #include "evaluation/evaluate.hpp"
 #include "tests/scenario/support.hpp"
 
@@ -102,6 +103,110 @@ TEST(Ats, DistancesAreThoseOfTheBucketWhateverTheForwardingDelay) {
     const results::RunResult result = judged(*resolved);
     const auto burst = std::ranges::find(result.streams, "burst", &results::StreamResult::name);
     EXPECT_EQ(burst->latency->max - burst->latency->min, 3 * 136_us) << delay;
+  }
+}
+
+/// a and b at s1, z and c at s2, two links between the switches: ports 2 and 3 of s1, 0 and 1 of s2.
+std::unique_ptr<Resolved> two_links(const std::vector<std::string>& overrides) {
+  json::Diagnostics diagnostics;
+  auto resolved = load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/lag.json", overrides, diagnostics);
+  EXPECT_TRUE(resolved) << diagnostics.to_text();
+  return resolved;
+}
+std::uint64_t frames_at(const results::RunResult& result, std::string_view node, std::uint16_t port) {
+  const auto found = std::ranges::find_if(
+      result.ports, [&](const results::PortResult& each) { return each.node == node && each.port == port; });
+  return found == result.ports.end() ? 0 : found->frames;
+}
+
+// 1000 octets of payload without a tag are 1046 + 20 octets, 8.528 us, on the medium: over one link y waits behind x,
+// over two it does not.
+TEST(ParallelLinks, AStreamChoosesItsLink) {
+  const auto latency = [](const results::RunResult& result, std::string_view name) {
+    return std::ranges::find(result.streams, name, &results::StreamResult::name)->latency->max;
+  };
+  const results::RunResult shared = judged(*two_links({}));
+  EXPECT_EQ(latency(shared, "y") - latency(shared, "x"), 8'528_ns);
+  EXPECT_EQ(frames_at(shared, "s1", 3), 0u);
+  const results::RunResult apart = judged(*two_links({R"(streams.1.path=["b", "s1:3", "s2", "c"])"}));
+  EXPECT_EQ(latency(apart, "y"), latency(apart, "x"));
+  EXPECT_EQ(frames_at(apart, "s1", 2), frames_at(apart, "s1", 3));
+}
+
+// One of them fails: the copies over the other one come.
+TEST(ParallelLinks, RedundantCopiesTakeBoth) {
+  const auto resolved = two_links({"streams.0.redundancy=2", "streams.1.until=1ns",
+                                   R"(faults=[{"kind": "link-down", "link": ["s1:2", "s2:0"], "at": "5ms"}])"});
+  ASSERT_EQ(resolved->redundancies.size(), 1u);
+  EXPECT_EQ(resolved->topology.nodes[resolved->redundancies[0].split].name, "s1");
+  EXPECT_EQ(resolved->topology.nodes[resolved->redundancies[0].merge].name, "s2");
+  const results::RunResult result = judged(*resolved);
+  const auto x = std::ranges::find(result.streams, "x", &results::StreamResult::name);
+  EXPECT_GT(x->sent, 400u);
+  EXPECT_EQ(x->delivered + x->in_flight, x->sent);
+  EXPECT_EQ(x->lost, 0u);
+  EXPECT_GT(frames_at(result, "s1", 3), 400u);
+}
+
+TEST(ParallelLinks, APathNamesAPortThatLeadsOn) {
+  const auto refused = [](const std::string& path) {
+    json::Diagnostics diagnostics;
+    EXPECT_EQ(
+        load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/lag.json", {"streams.1.path=" + path}, diagnostics),
+        nullptr);
+    return diagnostics.to_text();
+  };
+  EXPECT_NE(refused(R"(["b", "s1:1", "s2", "c"])")
+                .find(R"(not a port that leads on: found "s1:1", expected a port of "s1" to "s2")"),
+            std::string::npos);
+  EXPECT_NE(refused(R"(["b", "s1:2", "s2", "c:0"])").find("a port at the end of a path"), std::string::npos);
+  EXPECT_NE(refused(R"(["b", "s3:2", "s2", "c"])").find("unknown node"), std::string::npos);
+}
+
+// 8,972 octets of payload with UDP and IP are 9,000; with Ethernet 9,018 and 20 more on the medium, 7.2304 us at 10
+// Gb/s but for the gap.
+TEST(JumboFrames, PassWhereEachNodeLetsThem) {
+  const std::string file = std::string(TAKT_SOURCE_DIR) + "/tests/findings/jumbo.json";
+  const auto text_of = [&](const std::vector<std::string>& overrides) {
+    json::Diagnostics diagnostics;
+    EXPECT_EQ(load_file(file, overrides, diagnostics), nullptr);
+    return diagnostics.to_text();
+  };
+  EXPECT_NE(text_of({}).find("expected at most 1500 with all headers, or jumbo frames, by \"mtu\""), std::string::npos)
+      << text_of({});
+  EXPECT_NE(
+      text_of({"network.nodes.a.mtu=9000B"})
+          .find("longer than the MTU of a node on its path: found 9000 octets after the EtherType; \"z\" passes 1500"),
+      std::string::npos)
+      << text_of({"network.nodes.a.mtu=9000B"});
+  for (const std::vector<std::string>& mtu :
+       {std::vector<std::string>{"network.mtu=9000B"},
+        std::vector<std::string>{"network.nodes.a.mtu=9000B", "network.nodes.z.mtu=9000B"}}) {
+    json::Diagnostics diagnostics;
+    const auto resolved = load_file(file, mtu, diagnostics);
+    ASSERT_TRUE(resolved) << diagnostics.to_text();
+    EXPECT_EQ(judged(*resolved).streams.at(0).latency->max, Duration::from_ps(9'026 * 800 + 50'000));
+  }
+}
+
+// A burst of three is a train: its frames follow each other by 1070 octets, 8.56 us, at every port, and the windows are
+// laid for it. The other stream finds an offset at which it meets none of them. A frame alone takes three times 1058
+// octets, and three cables of 50 ns.
+TEST(Trains, BurstsHaveWindows) {
+  json::Diagnostics diagnostics;
+  for (const auto& [overrides, apart] : {std::pair(std::vector<std::string>{}, 8'560_ns),
+                                         std::pair(std::vector<std::string>{"streams.0.burst.spacing=100us"}, 0_ns)}) {
+    const auto resolved =
+        load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/train.json", overrides, diagnostics);
+    ASSERT_TRUE(resolved) << diagnostics.to_text();
+    ASSERT_TRUE(resolved->gates);
+    EXPECT_EQ(resolved->gates->problem.streams.size(), 4u);
+    const results::RunResult result = judged(*resolved);
+    EXPECT_EQ(result.verdict, results::Verdict::pass);
+    for (const results::StreamResult& stream : result.streams) {
+      EXPECT_EQ(stream.latency->min, 25'542_ns) << stream.name;
+      EXPECT_EQ(stream.latency->max, 25'542_ns + (stream.name == "flow0" ? 2 * apart : 0_ns)) << stream.name;
+    }
   }
 }
 

@@ -151,7 +151,8 @@ class ProblemWriter {
     if (from.path) {
       auto& route = stream.route.emplace();
       const scenario::Path& path = resolved.paths.front();
-      for (std::size_t i = 0; i + 1 < path.size(); ++i) route.push_back(link_at_.at({path[i], *r_.topology.port_towards(path[i], path[i + 1])}));
+      for (std::size_t i = 0; i + 1 < path.size(); ++i)
+        route.push_back(link_at_.at({path[i], port_out(r_.topology, path, i)}));
     }
     look_at_way(resolved, stream, where);
     StreamExtras extra;
@@ -171,11 +172,12 @@ class ProblemWriter {
   void look_at_way(const scenario::ResolvedStream& resolved, const schedule::Stream& stream, const std::string& where) {
     for (const scenario::Path& path : resolved.paths)
       for (std::size_t i = 1; i + 1 < path.size(); ++i) {
-        const auto port = r_.topology.port_towards(path[i], path[i + 1]);
-        const bool cuts = models::contains(scenario::port_config_of(r_.plan, end_at(path[i], *port)).cut_through, stream.traffic_class);
+        const std::uint16_t port = port_out(r_.topology, path, i);
+        const bool cuts = models::contains(scenario::port_config_of(r_.plan, end_at(path[i], port)).cut_through,
+                                           stream.traffic_class);
         const std::uint32_t octets = static_cast<std::uint32_t>((r_.plan.nodes[path[i]].cut_through_header + (r_.plan.streams[resolved.index.value].priority ? models::vlan_tag : sim::Octets{0})).count);
         const std::optional<std::uint32_t> wanted = cuts ? std::optional(octets) : std::nullopt;
-        const LinkIndex in = link_at_.at({path[i - 1], *r_.topology.port_towards(path[i - 1], path[i])});
+        const LinkIndex in = link_at_.at({path[i - 1], port_out(r_.topology, path, i - 1)});
         const auto [known, is_new] = cut_.try_emplace(in, wanted);
         if (!is_new && known->second != wanted) exported_.lose(where, "that " + problem().nodes[path[i]].name + " cuts some frames through and stores others, or after other headers");
         problem().links[in].cut_through = wanted;

@@ -116,21 +116,40 @@ const json::Object& describe(json::Type<Stream>) {
           {.max = models::largest_msdu}),
       optional<&Stream::encapsulation>("encapsulation", "What stands before the payload."),
       optional<&Stream::pcp>("pcp", "Priority in a VLAN tag; untagged, priority 0, if absent.", {.max = 7}),
-      optional<&Stream::host_priority>("host_priority", "Priority by which the sender's own interface queues untagged frames; they do not bear it, so that switches take them for priority 0.", {.max = 7}),
+      optional<&Stream::host_priority>("host_priority",
+                                       "Priority by which the sender's own interface queues untagged frames; they do "
+                                       "not bear it, so that switches take them for priority 0.",
+                                       {.max = 7}),
       optional<&Stream::vlan>("vlan", "VLAN identifier in the tag; 0 is a priority tag.", {.max = 4094}),
       optional<&Stream::every>("every", "Period.", {.min = 1_ns, .max = longest_step}),
       optional<&Stream::exponential>("exponential", "Random gaps with this mean."),
       optional<&Stream::normal>("normal", "Random gaps of a truncated normal distribution."),
       optional<&Stream::burst>("burst", "Bursts of frames."),
-      optional<&Stream::trace>("trace", "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
-      optional<&Stream::offset>("offset", "When the first period begins; 0 in a run if absent, and then any for the search for the worst case. \"auto\": takt chooses one at which its frames meet no others.", {.max = longest_step}),
-      optional<&Stream::until>("until", "When the stream ends: only frames that are due before are produced, by the clock of the sender.", {.min = 1_ns, .max = longest_step}),
-      optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.", {.max = longest_step}),
-      optional<&Stream::launch>("launch", "Launch time of each frame, this long after it was due: the network interface sends it then, or drops it if it comes later.",
+      optional<&Stream::trace>("trace",
+                               "A CSV file with the columns time and payload (e.g. 12.5us,100B), beside the scenario."),
+      optional<&Stream::offset>("offset",
+                                "When the first period begins; 0 in a run if absent, and then any for the search for "
+                                "the worst case. \"auto\": takt chooses one at which its frames meet no others.",
                                 {.max = longest_step}),
-      optional<&Stream::path>("path", "All nodes from sender to receiver, instead of the shortest path.", {.min_items = 2, .max_items = most_names}),
-      optional<&Stream::route>("route", "In place of a path: takt schedule searches for one and writes it. Until then, and for all other commands, it is the shortest path."),
-      optional<&Stream::redundancy>("redundancy", "Every frame takes several paths (IEEE 802.1CB): their number, or an object."),
+      optional<&Stream::until>(
+          "until", "When the stream ends: only frames that are due before are produced, by the clock of the sender.",
+          {.min = 1_ns, .max = longest_step}),
+      optional<&Stream::jitter>("jitter", "Each frame comes up to this much later, uniformly; at most the period.",
+                                {.max = longest_step}),
+      optional<&Stream::launch>("launch",
+                                "Launch time of each frame, this long after it was due: the network interface sends it "
+                                "then, or drops it if it comes later.",
+                                {.max = longest_step}),
+      optional<&Stream::path>(
+          "path",
+          "All nodes from sender to receiver, instead of the shortest path. \"sw1:2\" leaves sw1 by port 2, where "
+          "several links lead to the next node; by the first of them without a port.",
+          {.min_items = 2, .max_items = most_names}),
+      optional<&Stream::route>("route",
+                               "In place of a path: takt schedule searches for one and writes it. Until then, and for "
+                               "all other commands, it is the shortest path."),
+      optional<&Stream::redundancy>("redundancy",
+                                    "Every frame takes several paths (IEEE 802.1CB): their number, or an object."),
   };
   static constexpr std::string_view schedules[] = {"every", "exponential", "normal", "burst", "trace"};
   static constexpr json::Group groups[] = {json::exactly_one_of(schedules)};
@@ -141,8 +160,11 @@ const json::Object& describe(json::Type<Stream>) {
 const json::Object& describe(json::Type<SetGates>) {
   static constexpr json::Field fields[] = {
       required<&SetGates::node>("node", "The node whose gates are set."),
-      optional<&SetGates::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
-      required<&SetGates::gates>("gates", "The new gates; they run from their base time on, as IEEE 802.1Q 8.6.9.3 says."),
+      optional<&SetGates::to>("to",
+                              "Only the port to this neighbour; \"sw2:1\": of several links to it the one to its port "
+                              "1. All ports of the node if absent."),
+      required<&SetGates::gates>("gates",
+                                 "The new gates; they run from their base time on, as IEEE 802.1Q 8.6.9.3 says."),
   };
   static constexpr json::Object table = json::object<SetGates>("set_gates", "Another gate list at run time.", fields);
   return table;

@@ -83,7 +83,9 @@ const json::Enumeration& describe(json::Type<GateFault>) {
 const json::Object& describe(json::Type<StuckGate>) {
   static constexpr json::Field fields[] = {
       required<&StuckGate::node>("node", "The node."),
-      optional<&StuckGate::to>("to", "Only the port to this neighbour; all ports of the node if absent."),
+      optional<&StuckGate::to>("to",
+                               "Only the port to this neighbour; \"sw2:1\": of several links to it the one to its port "
+                               "1. All ports of the node if absent."),
       required<&StuckGate::traffic_class>("class", "The traffic class whose gate does not move.", {.max = 7}),
       required<&StuckGate::state>("state", "How it stays."),
       required<&StuckGate::at>("at", "From when on.", {.max = longest}),

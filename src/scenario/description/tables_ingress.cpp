@@ -244,18 +244,37 @@ const json::Object& describe(json::Type<LatentErrors>) {
 
 const json::Object& describe(json::Type<Redundancy>) {
   static constexpr json::Field fields[] = {
-      optional<&Redundancy::count>("count", "So many disjoint paths are looked for: they share no switch between the first and the last one, or at least no link. 2 if neither this nor paths is given.",
+      optional<&Redundancy::count>("count",
+                                   "So many disjoint paths are looked for: they share no switch between the first and "
+                                   "the last one, or at least no link. 2 if neither this nor paths is given.",
                                    {.min = 2, .max = 8}),
-      optional<&Redundancy::paths>("paths", "The paths, each with all nodes from sender to receiver.", {.min_items = 2, .max_items = 8}),
-      optional<&Redundancy::vlans>("vlans", "The VLAN of each path, for tagged streams; that of the stream if absent. Each path has a group address of its own anyway.",
+      optional<&Redundancy::paths>("paths",
+                                   "The paths, each with all nodes from sender to receiver; \"sw1:2\" leaves sw1 by "
+                                   "port 2, where several links lead to the next node.",
+                                   {.min_items = 2, .max_items = 8}),
+      optional<&Redundancy::vlans>("vlans",
+                                   "The VLAN of each path, for tagged streams; that of the stream if absent. Each path "
+                                   "has a group address of its own anyway.",
                                    {.max_items = 8, .items = {.max = 4094}}),
-      optional<&Redundancy::ladder>("ladder", "Of paths that meet and part again: wherever they meet copies are taken out, and wherever they part each frame is copied anew, so that a frame is lost only if no way through the links of all paths is left."),
-      optional<&Redundancy::number>("number", "The node that numbers the frames, if not the one that copies them: the sender or a switch before it. From there they carry their R-TAG."),
-      optional<&Redundancy::split>("split", "The node that copies the frames, and numbers them: the sender or a switch. Where the paths part if absent."),
-      optional<&Redundancy::merge>("merge", "The node that takes out the copies: the receiver or a switch. Where the paths meet if absent."),
+      optional<&Redundancy::ladder>(
+          "ladder",
+          "Of paths that meet and part again: wherever they meet copies are taken out, and wherever they part each "
+          "frame is copied anew, so that a frame is lost only if no way through the links of all paths is left."),
+      optional<&Redundancy::number>("number",
+                                    "The node that numbers the frames, if not the one that copies them: the sender or "
+                                    "a switch before it. From there they carry their R-TAG."),
+      optional<&Redundancy::split>(
+          "split",
+          "The node that copies the frames, and numbers them: the sender or a switch. Where the paths part if absent."),
+      optional<&Redundancy::merge>(
+          "merge", "The node that takes out the copies: the receiver or a switch. Where the paths meet if absent."),
       optional<&Redundancy::algorithm>("algorithm", "How copies are recognised."),
-      optional<&Redundancy::history>("history", "How many numbers the vector algorithm remembers; more than the frames by which one path can be ahead.", {.min = 2, .max = 1024}),
-      optional<&Redundancy::reset_timeout>("reset_timeout", "Without a frame for so long any number is taken again.", {.min = 1_us, .max = longest_interval}),
+      optional<&Redundancy::history>(
+          "history",
+          "How many numbers the vector algorithm remembers; more than the frames by which one path can be ahead.",
+          {.min = 2, .max = 1024}),
+      optional<&Redundancy::reset_timeout>("reset_timeout", "Without a frame for so long any number is taken again.",
+                                           {.min = 1_us, .max = longest_interval}),
       optional<&Redundancy::individual>("individual", "Also recover each path by itself before (individual recovery)."),
       optional<&Redundancy::take_untagged>("take_untagged", "Pass frames without a sequence number (TakeNoSequence)."),
       optional<&Redundancy::latent_errors>("latent_errors", "Detect that a path has failed although all frames come."),

@@ -48,7 +48,7 @@ class Extraction {
       for (const models::LinkPlan::End* end : {&link.a, &link.b}) ends_[{end->node.value, end->port}] = {&link, end};
   }
   static std::pair<std::uint32_t, std::uint16_t> key_of(const End& at) { return {at.end->node.value, at.end->port}; }
-  End end_towards(std::uint32_t from, std::uint32_t to) const { return ends_.at({from, *r_.topology.port_towards(from, to)}); }
+  End end_of(const Path& path, std::size_t at) const { return ends_.at({path[at], port_out(r_.topology, path, at)}); }
   const models::PortConfig& config_of(const models::LinkPlan::End& end) const {
     return r_.plan.port_configs[end.port_config.value_or(r_.plan.nodes[end.node.value].port_config)];
   }
@@ -56,7 +56,7 @@ class Extraction {
   models::TrafficClass class_of(const ResolvedStream& stream, const models::PortConfig& config) const { return config.traffic_class_of_priority[plan_of(stream).priority_at_talker()]; }
   std::optional<models::TrafficClass> class_at_talker(const ResolvedStream& stream) const {
     if (stream.paths.empty()) return std::nullopt;
-    return class_of(stream, config_of(*end_towards(stream.paths.front()[0], stream.paths.front()[1]).end));
+    return class_of(stream, config_of(*end_of(stream.paths.front(), 0).end));
   }
 
   bool find_classes() {
@@ -103,7 +103,7 @@ class Extraction {
         if (is_new) {
           const std::string problem = check_node(path[i]);
           if (!problem.empty()) return refuse(stream, problem);
-          if (!add_hop(stream, made, path[i], path[i + 1], previous, on[i].r_tagged)) return;
+          if (!add_hop(stream, made, end_of(path, i), path[i + 1], previous, on[i].r_tagged)) return;
           made.hops.back().is_merged = is_merged;
         }
         previous = hop->second;
@@ -133,8 +133,9 @@ class Extraction {
     return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose \"ingress\" may change classes and times";
   }
 
-  bool add_hop(const ResolvedStream& stream, ScheduledStream& made, std::uint32_t from, std::uint32_t to, std::optional<std::uint32_t> previous, bool r_tagged) {
-    const End at = end_towards(from, to);
+  bool add_hop(const ResolvedStream& stream, ScheduledStream& made, const End& at, std::uint32_t to,
+               std::optional<std::uint32_t> previous, bool r_tagged) {
+    const std::uint32_t from = at.end->node.value;
     const models::PortConfig& config = config_of(*at.end);
     const models::TrafficClass q = class_of(stream, config);
     const std::string port = json::quote(r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name);

@@ -103,9 +103,14 @@ void Usage::add_egress() {
       if (is_new) egress_.push_back({&egress, r_.topology.nodes[n].name, {}});
       for (const auto& [key, use] : ports_) {
         if (use.node != n) continue;
-        const std::string& peer = r_.topology.nodes[use.peer].name;
-        const bool has_own = std::any_of(egress_of(r_.topology.nodes[n]).begin(), egress_of(r_.topology.nodes[n]).end(), [&](const Egress& other) { return other.to == peer; });
-        if (egress.to ? *egress.to == peer : !has_own) egress_[found->second].ports.push_back(&use);
+        const Neighbour& peer = *std::ranges::find(r_.topology.neighbours[n], use.port, &Neighbour::port);
+        const auto goes_before = [&](const Egress& other) {
+          return other.to && r_.topology.is_named(*other.to, peer.node, peer.their_port) &&
+                 other.to->size() > egress.to.value_or("").size();
+        };
+        if (egress.to && !r_.topology.is_named(*egress.to, peer.node, peer.their_port)) continue;
+        if (std::ranges::none_of(egress_of(r_.topology.nodes[n]), goes_before))
+          egress_[found->second].ports.push_back(&use);
       }
     }
 }

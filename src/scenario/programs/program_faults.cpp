@@ -36,16 +36,12 @@ class ProgramFaults {
       addresses_.insert(r_.plan.streams[stream.value].destination.value);
       for (const Path& path : r_.streams[stream.value].paths) {
         nodes_.insert(path.begin(), path.end());
-        for (std::size_t i = 0; i + 1 < path.size(); ++i) links_.insert(link_between(path[i], path[i + 1]));
+        for (std::size_t i = 0; i + 1 < path.size(); ++i)
+          links_.insert(link_at(path[i], port_out(r_.topology, path, i)));
       }
     }
   }
 
-  std::uint32_t link_between(std::uint32_t a, std::uint32_t b) const {
-    const auto port = r_.topology.port_towards(a, b);
-    TAKT_CHECK(port, "a path leads from neighbour to neighbour");
-    return link_at(a, *port);
-  }
   std::uint32_t link_at(std::uint32_t node, std::uint16_t port) const {
     const auto is = [&](const models::LinkPlan::End& end) { return end.node.value == node && end.port == port; };
     const auto found = std::find_if(r_.plan.links.begin(), r_.plan.links.end(), [&](const models::LinkPlan& link) { return is(link.a) || is(link.b); });
@@ -73,7 +69,7 @@ class ProgramFaults {
                        "link " + link_name(action.link) + " is up again", handshake::Cause::cut};
     silence(fault, [&](const Path& path) {
       for (std::size_t n = 0; n + 1 < path.size(); ++n)
-        if (link_between(path[n], path[n + 1]) == action.link) return true;
+        if (link_at(path[n], port_out(r_.topology, path, n)) == action.link) return true;
       return false;
     });
     made_.push_back(std::move(fault));
@@ -124,7 +120,7 @@ class ProgramFaults {
   void add(const models::TalkerPlan& talker) {
     for (const Path& path : r_.streams[talker.stream.value].paths)
       for (std::size_t n = 0; n + 1 < path.size(); ++n) {
-        if (!links_.contains(link_between(path[n], path[n + 1]))) continue;
+        if (!links_.contains(link_at(path[n], port_out(r_.topology, path, n)))) continue;
         const auto* const schedule = std::get_if<models::PeriodicSchedule>(&talker.schedule);
         const std::string& stream = r_.plan.streams[talker.stream.value].name;
         const bool has_end = talker.until != sim::LocalTime::never();

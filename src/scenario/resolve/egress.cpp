@@ -32,18 +32,23 @@ class EgressResolver {
       if (!seen.insert(to).second)
         diagnostics_.error(egress.where.place(), "a port configured twice", {egress.to ? json::quote(to) + " a second time" : "all ports a second time", "one entry for a port"});
       if (!egress.to) continue;
-      const auto node = r_.topology.find(to);
-      if (!node || !r_.topology.port_towards(n, *node))
+      const auto is_meant = [&](const Neighbour& neighbour) {
+        return r_.topology.is_named(to, neighbour.node, neighbour.their_port);
+      };
+      if (std::ranges::none_of(r_.topology.neighbours[n], is_meant))
         report_no_neighbour(r_.topology, to, r_.topology.nodes[n].name, egress.where.at("to"), diagnostics_);
     }
   }
 
   void configure(models::LinkPlan::End& end, const models::LinkPlan::End& peer, DataRate rate) {
     const TopologyNode& node = r_.topology.nodes[end.node.value];
-    const std::string& peer_name = r_.topology.nodes[peer.node.value].name;
+    // An entry for the link goes before one for the neighbour, and that before one for all.
     const Egress* chosen = nullptr;
-    for (const Egress& egress : egress_entries_of(node))
-      if (egress.to == peer_name || (!egress.to && chosen == nullptr)) chosen = &egress;
+    for (const Egress& egress : egress_entries_of(node)) {
+      const bool is_meant = !egress.to || r_.topology.is_named(*egress.to, peer.node.value, peer.port);
+      if (is_meant && (chosen == nullptr || egress.to.value_or("").size() > chosen->to.value_or("").size()))
+        chosen = &egress;
+    }
     if (chosen == nullptr) return;
     models::PortConfig config = r_.plan.port_configs[r_.plan.nodes[end.node.value].port_config];
     config.shaping = shaping_of(*chosen, rate);
@@ -228,7 +233,7 @@ void check_slopes(const Resolved& r, json::Diagnostics& diagnostics) {
       const models::ShapingConfig& config = r.plan.port_configs[*end->port_config].shaping;
       if (!config.gates) continue;
       for (const Egress& egress : egress_entries_of(r.topology.nodes[end->node.value])) {
-        if (egress.to && *egress.to != r.topology.nodes[peer->node.value].name) continue;
+        if (egress.to && !r.topology.is_named(*egress.to, peer->node.value, peer->port)) continue;
         for (const Shaper& shaper : egress.shapers) {
           const models::TrafficClass q = shaper.traffic_class & 7u;
           if (!config.shaper_of(q) || slope_is_possible(*config.shaper_of(q), q, *config.gates, link.rate) || !reported.insert({&shaper, link.rate.bits_per_second}).second) continue;

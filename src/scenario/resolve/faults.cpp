@@ -249,7 +249,7 @@ class FaultResolver {
     if (!node) return;
     bool found = false;
     for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
-      if (fault.to && r_.topology.nodes[neighbour.node].name != *fault.to) continue;
+      if (fault.to && !r_.topology.is_named(*fault.to, neighbour.node, neighbour.their_port)) continue;
       found = true;
       const models::NodeIndex index{*node};
       made_.stuck_ports.insert({*node, neighbour.port});

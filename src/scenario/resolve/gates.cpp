@@ -61,8 +61,11 @@ class GateResolver {
     SetGates set;
     set.where = gates_.where;
     set.node = r_.topology.nodes[port.node.value].name;
-    for (const Neighbour& neighbour : r_.topology.neighbours[port.node.value])
-      if (neighbour.port == port.port) set.to = r_.topology.nodes[neighbour.node].name;
+    const std::vector<Neighbour>& neighbours = r_.topology.neighbours[port.node.value];
+    const Neighbour& peer = *std::ranges::find(neighbours, port.port, &Neighbour::port);
+    set.to = r_.topology.nodes[peer.node].name;
+    if (std::ranges::count(neighbours, peer.node, &Neighbour::node) > 1)
+      *set.to += ":" + std::to_string(peer.their_port);
     set.gates.where = gates_.where;
     set.gates.cycle = list.cycle;
     for (const GateList::Entry& entry : list.entries) {
@@ -169,7 +172,10 @@ class GateResolver {
       return;
     }
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
-    const GatesSet done = set_gates(r_.plan, models::NodeIndex{*node}, gates, [&](models::NodeIndex peer) { return !set.to || r_.topology.nodes[peer.value].name == *set.to; });
+    const auto is_meant = [&](const models::LinkPlan::End& peer) {
+      return !set.to || r_.topology.is_named(*set.to, peer.node.value, peer.port);
+    };
+    const GatesSet done = set_gates(r_.plan, models::NodeIndex{*node}, gates, is_meant);
     if (!done.found) report_no_neighbour(r_.topology, set.to.value_or(set.node), set.node, where.at(set.to ? "to" : "node"), diagnostics_);
     if (done.twice) diagnostics_.error(gates_.where.at("lists", index), "a port configured twice", {"gates of " + json::quote(set.node) + " that are there already", "one list for a port"});
   }

@@ -216,7 +216,8 @@ class NodeIngress {
   }
 
   void set_port_gates(const Cqf& cqf) {
-    const GatesSet done = set_gates(r_.plan, models::NodeIndex{node_}, cqf_port_gates(cqf, times_), [](models::NodeIndex) { return true; });
+    const GatesSet done = set_gates(r_.plan, models::NodeIndex{node_}, cqf_port_gates(cqf, times_),
+                                    [](const models::LinkPlan::End&) { return true; });
     if (done.twice) diagnostics_.error(cqf.where.place(), "a port configured twice", {"gates in \"egress\" beside CQF, which makes them", "one of the two"});
   }
 

@@ -20,13 +20,13 @@ struct GatesSet {
   bool found = false;   ///< one at least
   bool twice = false;   ///< one had gates before
 };
-/// Of the ports of the node those whose neighbour is meant.
+/// Of the ports of the node those whose peer, the other end of the link, is meant.
 template <class IsMeant>
 GatesSet set_gates(models::NetworkPlan& plan, models::NodeIndex node, const models::GateConfig& gates, IsMeant&& is_meant) {
   GatesSet set;
   for (models::LinkPlan& link : plan.links)
     for (auto [end, peer] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
-      if (end->node != node || !is_meant(peer->node)) continue;
+      if (end->node != node || !is_meant(*peer)) continue;
       models::PortConfig config = port_config_of(plan, *end);
       set.found = true;
       set.twice = set.twice || config.shaping.gates.has_value();

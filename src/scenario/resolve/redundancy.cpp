@@ -25,8 +25,16 @@ class MemberLayer {
     members.paths = redundancy_.paths ? given() : found();
     if (members.paths.size() < 2) return std::nullopt;   // reported, or refused by the table
     if (redundancy_.ladder && !add_ways(members.paths)) return std::nullopt;
-    members.split = common(members.paths, [](const Path& path, std::size_t i) { return path[i]; }) - 1;
-    members.after_merge = common(members.paths, [](const Path& path, std::size_t i) { return path[path.size() - 1 - i]; }) - 1;
+    // Together with the link by which a path comes to it from the split, or from the merge.
+    const auto from_front = [&](const Path& path, std::size_t i) {
+      return std::pair(path[i], i > 0 ? port_out(r_.topology, path, i - 1) : std::uint16_t{0});
+    };
+    const auto from_back = [&](const Path& path, std::size_t i) {
+      const std::size_t at = path.size() - 1 - i;
+      return std::pair(path[at], i > 0 ? port_in(r_.topology, path, at + 1) : std::uint16_t{0});
+    };
+    members.split = common(members.paths, from_front) - 1;
+    members.after_merge = common(members.paths, from_back) - 1;
     if (!redundancy_.ladder) warn_of_shared_links(members);
     const bool split_is_fine = move_split(members);
     const bool merge_is_fine = move_merge(members);
@@ -51,6 +59,11 @@ class MemberLayer {
 
   /// All ways through the links of the given paths that come to no node twice; the given ones first.
   bool add_ways(std::vector<Path>& paths) {
+    if (std::ranges::any_of(paths, [](const Path& path) { return !path.ports.empty(); })) {
+      diagnostics_.error(place("paths"), "a ladder over links that join the same nodes",
+                         {"a port besides the first one between two nodes", "one link between each two of its nodes"});
+      return false;
+    }
     std::map<std::uint32_t, std::vector<std::uint32_t>> next;
     for (const Path& path : paths)
       for (std::size_t i = 0; i + 1 < path.size(); ++i)
@@ -146,10 +159,12 @@ class MemberLayer {
   }
 
   void warn_of_shared_links(const MemberPaths& members) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> used;
+    using End = std::pair<std::uint32_t, std::uint16_t>;  // node and port
+    std::set<std::pair<End, End>> used;
     for (const Path& path : members.paths) {
       for (std::size_t i = members.split; i < members.merge(path); ++i) {
-        if (used.insert(std::minmax(path[i], path[i + 1])).second) continue;
+        const End out(path[i], port_out(r_.topology, path, i)), in(path[i + 1], port_in(r_.topology, path, i + 1));
+        if (used.insert(std::minmax(out, in)).second) continue;
         diagnostics_.warning(redundancy_.where.place(), "redundant paths over one link", {name(path[i]) + " - " + name(path[i + 1]), "paths that share no link"});
       }
     }
@@ -256,9 +271,10 @@ Duration undisturbed_delay(const Resolved& r, const Path& path, std::uint32_t sp
   Duration delay;
   auto at = std::find(path.begin(), path.end(), split);
   for (; *at != merge; ++at) {
+    const std::uint16_t port = port_out(r.topology, path, static_cast<std::size_t>(at - path.begin()));
     for (const models::LinkPlan& link : r.plan.links) {
-      const bool forth = link.a.node.value == *at && link.b.node.value == *(at + 1);
-      const bool back = link.b.node.value == *at && link.a.node.value == *(at + 1);
+      const bool forth = link.a.node.value == *at && link.a.port == port;
+      const bool back = link.b.node.value == *at && link.b.port == port;
       if (!forth && !back) continue;
       delay += link.delay + link.rate.octet_time() * (models::preamble_and_sfd + frame).count;
       break;

@@ -389,7 +389,7 @@ class Resolver {
     const models::GateConfig gates = gate_config_of(set.gates, diagnostics_);
     bool found = false;
     for (const Neighbour& neighbour : r_.topology.neighbours[*node]) {
-      if (set.to && r_.topology.nodes[neighbour.node].name != *set.to) continue;
+      if (set.to && !r_.topology.is_named(*set.to, neighbour.node, neighbour.their_port)) continue;
       found = true;
       check_slopes_of(set, *node, neighbour.port, gates);
       for (models::LinkPlan& link : r_.plan.links)

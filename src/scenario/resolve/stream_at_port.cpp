@@ -38,7 +38,7 @@ class Walker {
     const std::vector<OnHop> hops = redundancy != nullptr ? on_hops(r_, *redundancy, number) : std::vector<OnHop>();
     OnHop before;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-      const std::uint16_t port = *r_.topology.port_towards(path[i], path[i + 1]);
+      const std::uint16_t port = port_out(r_.topology, path, i);
       StreamAtPort made{stream.index, {}, path[i], port, path[i + 1]};
       models::Frame frame;
       frame.stream = stream.index;

@@ -82,7 +82,8 @@ void StreamBuilder::check_names_of_paths(const NewStream& wanted) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       json::Place here = place;
       here.pointer += json::pointer_step(i);
-      if (!r_.topology.find(names[i])) report_unknown_node(r_.topology, names[i], std::move(here), "the name of a node", diagnostics_);
+      if (const std::string_view name = step_named(names[i]).node; !r_.topology.find(name))
+        report_unknown_node(r_.topology, name, std::move(here), "the name of a node", diagnostics_);
     }
   };
   if (wanted.path != nullptr) check(*wanted.path, wanted.where.at("path"));
@@ -152,9 +153,8 @@ std::vector<Path> StreamBuilder::paths_of(const NewStream& wanted) {
 std::optional<Path> StreamBuilder::way_between(const NewStream& wanted, std::uint32_t to) const {
   if (wanted.ways == nullptr) return std::nullopt;
   for (const std::vector<std::string>& names : *wanted.ways) {
-    Path path;
-    for (const std::string& name : names) path.push_back(*r_.topology.find(name));
-    if (path.front() == to && path.back() == *wanted.from) std::ranges::reverse(path);
+    Path path = path_named(r_.topology, names);
+    if (path.front() == to && path.back() == *wanted.from) path = reversed(r_.topology, path);
     if (path.front() == *wanted.from && path.back() == to) return path;
   }
   return std::nullopt;
@@ -208,14 +208,14 @@ void StreamBuilder::add_members(const NewStream& wanted, const MemberPaths& memb
   made.merges_in_host = members.after_merge == 0;
   made.number = members.paths.front()[members.number];
   made.numbers_in_host = members.number == 0 && !made.splits_in_host;
-  made.numbering_port = *r_.topology.port_towards(members.paths.front()[0], members.paths.front()[1]);
+  made.numbering_port = port_out(r_.topology, members.paths.front(), 0);
   if (wanted.redundancy->ladder) return add_ladder(wanted, members, std::move(made));
   const models::AddressIndex compound = r_.plan.streams[index.value].destination;
   for (std::size_t i = 0; i < members.paths.size() / wanted.to.size(); ++i) {
     models::StreamMember member;
     member.destination = new_group();
     member.vlan = wanted.redundancy->vlans.empty() ? wanted.vlan : wanted.redundancy->vlans[i];
-    member.port = *r_.topology.port_towards(members.paths[i][0], members.paths[i][1]);
+    member.port = port_out(r_.topology, members.paths[i], 0);
     made.members.push_back(member);
   }
   for (std::size_t i = 0; i < members.paths.size(); ++i) {

@@ -4,7 +4,6 @@
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/successive_shortest_path_nonnegative_weights.hpp>
 #include <map>
-#include <set>
 
 namespace takt::scenario {
 namespace {
@@ -37,17 +36,19 @@ class FlowNetwork {
     // One link more costs more than any choice among equally many.
     const Cost cost_of_link = static_cast<Cost>(topology.nodes.size()) * static_cast<Cost>(topology.links.size()) + 1;
     Cost number = 0;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> joined;  // a path names its nodes: of parallel links the first counts
     for (const models::LinkPlan& link : topology.links) {
       const std::uint32_t a = link.a.node.value;
       const std::uint32_t b = link.b.node.value;
       number += 1;
       if ((!topology.nodes[a].forwards() && !is_end(a)) || (!topology.nodes[b].forwards() && !is_end(b))) continue;
-      if (!joined.insert(std::minmax(a, b)).second) continue;
-      for (const auto& [x, y] : {std::pair(a, b), std::pair(b, a)}) {
-        if (y == from || x == to) continue;
-        const bool for_all = (x == from && is_only_way(from, y)) || (y == to && is_only_way(to, x));
-        links_.push_back({x, y, for_all, add(way_out(x), way_in(y), for_all ? count : 1, cost_of_link + number)});
+      for (const auto& [x, y] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
+        const std::uint32_t at = x->node.value, next = y->node.value;
+        if (next == from || at == to) continue;
+        const bool for_all = (at == from && is_only_way(from, next)) || (next == to && is_only_way(to, at));
+        links_.push_back({at,
+                          {next, x->port, y->port},
+                          for_all,
+                          add(way_out(at), way_in(next), for_all ? count : 1, cost_of_link + number)});
       }
     }
     const Traits::edge_descriptor all = add(source, way_in(from), count, 0);
@@ -59,14 +60,14 @@ class FlowNetwork {
   std::size_t flow() const { return flow_; }
 
   /// The flow as paths.
-  std::vector<Path> paths() const {
-    std::map<std::uint32_t, std::vector<std::uint32_t>> next;
+  std::vector<Path> paths(const Topology& topology) const {
+    std::map<std::uint32_t, std::vector<Neighbour>> next;
     for (const Link& link : links_)
       for (std::int64_t left = (link.for_all ? static_cast<std::int64_t>(flow_) : 1) - residual_of(link); left > 0; --left) next[link.from].push_back(link.to);
     std::vector<Path> paths(flow_, Path{from_});
     for (Path& path : paths) {
       for (auto at = next.find(from_); at != next.end() && !at->second.empty(); at = next.find(path.back())) {
-        path.push_back(at->second.back());
+        append(topology, path, at->second.back());
         at->second.pop_back();
       }
     }
@@ -91,14 +92,14 @@ class FlowNetwork {
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
     for (const Link& link : links_)
-      if (reached[way_out(link.from)] && !reached[way_in(link.to)]) found.emplace_back(link.from, link.to);
+      if (reached[way_out(link.from)] && !reached[way_in(link.to.node)]) found.emplace_back(link.from, link.to.node);
     return found;
   }
 
  private:
   struct Link {
     std::uint32_t from = 0;
-    std::uint32_t to = 0;
+    Neighbour to;
     bool for_all = false;              // carries all paths
     Traits::edge_descriptor edge;
   };
@@ -163,7 +164,7 @@ DisjointPaths disjoint_paths(const Topology& topology, std::uint32_t from, std::
       result.bottleneck = network.cut();
       continue;
     }
-    result.paths = network.paths();
+    result.paths = network.paths(topology);
     result.shared_switches = shared_switches(result.paths);
     result.bottleneck.clear();
     break;

@@ -12,7 +12,7 @@ namespace takt::scenario {
 template <class Visit>
 void for_each_entry(const Topology& topology, const Path& path, Visit&& visit) {
   for (std::size_t at = 0; at + 1 < path.size(); ++at)
-    if (topology.chooses_ports[path[at]]) visit(at, *topology.port_towards(path[at], path[at + 1]));
+    if (topology.chooses_ports[path[at]]) visit(at, port_out(topology, path, at));
   if (topology.nodes[path.back()].forwards()) visit(path.size() - 1, models::internal_port);
 }
 

@@ -2,10 +2,43 @@
 
 #include <algorithm>
 
+#include "sim/check.hpp"
+
 namespace takt::scenario {
 namespace {
 constexpr std::uint32_t nowhere = 0xFFFF'FFFF;
 constexpr std::size_t most_tree_entries = 50'000'000;
+}
+
+const Neighbour& step_of(const Topology& topology, const Path& path, std::size_t at) {
+  const std::uint16_t port = at < path.ports.size() ? path.ports[at] : Path::first_link;
+  for (const Neighbour& neighbour : topology.neighbours[path[at]])
+    if (neighbour.node == path[at + 1] && (port == Path::first_link || neighbour.port == port)) return neighbour;
+  TAKT_CHECK(false, "a path leads from neighbour to neighbour");
+  return topology.neighbours[path[at]].front();
+}
+
+void append(const Topology& topology, Path& path, const Neighbour& next) {
+  const std::size_t at = path.size() - 1;
+  path.push_back(next.node);
+  if (step_of(topology, path, at).port == next.port) return;
+  path.ports.resize(at, Path::first_link);
+  path.ports.push_back(next.port);
+}
+
+void remove_last(Path& path) {
+  path.pop_back();
+  if (path.ports.size() >= path.size()) path.ports.resize(path.empty() ? 0 : path.size() - 1);
+  while (!path.ports.empty() && path.ports.back() == Path::first_link) path.ports.pop_back();
+}
+
+Path reversed(const Topology& topology, const Path& path) {
+  Path back{path.back()};
+  for (std::size_t at = path.size() - 1; at-- > 0;) {
+    const Neighbour& step = step_of(topology, path, at);
+    append(topology, back, {path[at], step.their_port, step.port});
+  }
+  return back;
 }
 
 Router::Router(const Topology& topology) : topology_(topology), spots_(topology.nodes.size(), nowhere) {

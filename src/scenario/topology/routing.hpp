@@ -10,8 +10,33 @@
 
 namespace takt::scenario {
 
-/// Node indices from the sender to one receiver, both included.
-using Path = std::vector<std::uint32_t>;
+/// Node indices from the sender to one receiver, both included; between neighbours that several links join the first
+/// link, unless it says another.
+struct Path : std::vector<std::uint32_t> {
+  using std::vector<std::uint32_t>::vector;
+  static constexpr std::uint16_t first_link = 0xFFFF;
+  /// By position: the port by which the path leaves that node. Of the nodes behind it is that of the first link.
+  std::vector<std::uint16_t> ports;
+
+  bool operator==(const Path&) const = default;
+  auto operator<=>(const Path&) const = default;
+};
+
+/// Goes on to a neighbour by that link.
+void append(const Topology& topology, Path& path, const Neighbour& next);
+void remove_last(Path& path);
+Path reversed(const Topology& topology, const Path& path);
+
+/// The link from the node at that position to the next one.
+const Neighbour& step_of(const Topology& topology, const Path& path, std::size_t at);
+/// The port by which the path leaves the node at that position.
+inline std::uint16_t port_out(const Topology& topology, const Path& path, std::size_t at) {
+  return step_of(topology, path, at).port;
+}
+/// The port by which it comes to the node at that position, which is not the first.
+inline std::uint16_t port_in(const Topology& topology, const Path& path, std::size_t at) {
+  return step_of(topology, path, at - 1).their_port;
+}
 
 /// Shortest paths by number of links, over nodes that forward. Among equally short paths the one is taken that uses links
 /// written (or generated) earlier, near the root of the search; so it is the same in every run and on every machine.

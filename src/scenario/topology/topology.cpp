@@ -292,6 +292,12 @@ std::optional<std::uint16_t> Topology::port_towards(std::uint32_t from, std::uin
   return std::nullopt;
 }
 
+bool Topology::is_named(std::string_view to, std::uint32_t neighbour, std::uint16_t their_port) const {
+  const std::string& name = nodes[neighbour].name;
+  return to.starts_with(name) &&
+         (to.size() == name.size() || to.substr(name.size()) == ":" + std::to_string(their_port));
+}
+
 Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics) {
   return Builder(network, diagnostics).build();
 }

@@ -57,6 +57,8 @@ struct Topology {
   std::optional<std::uint32_t> find(std::string_view name) const;
   /// The port of `from` that leads to its neighbour `to`; the first if there are several links.
   std::optional<std::uint16_t> port_towards(std::uint32_t from, std::uint32_t to) const;
+  /// Whether a "to" of a node means the link to that end of a neighbour: "sw2", or "sw2:1" for its port 1.
+  bool is_named(std::string_view to, std::uint32_t neighbour, std::uint16_t their_port) const;
 };
 
 /// Builds the topology; mistakes go to `diagnostics`. What could be built is returned even then.

@@ -63,6 +63,9 @@ struct RuleBook {
 /// Keys that neither have a rule nor can be made without one.
 std::vector<std::string> keys_without_rule();
 
+/// The ports of a link beside another one between the same two switches.
+inline constexpr const char* second_link = ":40";
+
 /// The nodes and links of the scenario, generated ones too.
 struct World {
   std::vector<std::string> switches, hosts;   ///< stations are in both

@@ -37,6 +37,13 @@ Made gate_of_filter(Maker& m, const Scope&) {
   return m.word("g0 g1");
 }
 
+/// For frames of any length, or in all schedulers for short ones, of which they hold some of a burst.
+Made ats_burst(Maker& m, const Scope&) {
+  if (!m.kept.contains("large_buckets") && !m.kept.contains("small_buckets"))
+    m.kept.try_emplace(m.draw.one_in(2) ? "small_buckets" : "large_buckets", text("yes"));
+  return m.word(m.kept.contains("small_buckets") ? "172B 350B 600B" : "1560B 2000B 5000B");
+}
+
 Made residence(Maker& m, const Scope&) { return m.word("100us 500us 2ms"); }
 
 }  // namespace
@@ -100,7 +107,7 @@ std::span<const Rule> ingress_rules() {
       {.key = "flow_meter.block_red", .percent = 10},
       {.key = "ats_scheduler.name", .make = [](Maker&, const Scope& s) -> Made { return own_name("a", s); }},
       {.key = "ats_scheduler.rate", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() ? "1Mbps 3Mbps" : "5Mbps 12Mbps 33333333bps"); }},
-      {.key = "ats_scheduler.burst", .words = "1560B 2000B 5000B"},
+      {.key = "ats_scheduler.burst", .make = ats_burst},
       {.key = "ats_scheduler.group", .percent = 30, .words = "all0"},
       {.key = "ats_group.name", .make = [](Maker&, const Scope& s) -> Made { return own_name("all", s); }},
       {.key = "ats_group.max_residence_time", .percent = 60, .make = residence},

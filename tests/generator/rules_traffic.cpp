@@ -23,6 +23,17 @@ Node way(const std::vector<std::string>& nodes) {
   return made;
 }
 
+/// The same as a path, which takes the second of two links between neighbours now and then.
+Node path_of(Maker& m, const std::vector<std::string>& nodes) {
+  Node made = way(nodes);
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const bool has_second = m.world.forwards(nodes[i]) && m.world.forwards(nodes[i + 1]) &&
+                            std::ranges::count(m.world.neighbours.at(nodes[i]), nodes[i + 1]) > 1;
+    if (has_second && m.draw.one_in(2)) made.items[i] = text(nodes[i] + second_link);
+  }
+  return made;
+}
+
 Made to(Maker& m, const Scope& s) {
   std::vector<std::string> others = m.world.hosts;
   std::erase(others, s.text("from"));
@@ -38,7 +49,7 @@ Made path(Maker& m, const Scope& s) {
   if (listeners.size() != 1) return std::nullopt;
   const std::vector<std::string> nodes = m.world.path(m.draw, s.text("from"), listeners[0]);
   if (nodes.size() < 2) return std::nullopt;
-  return way(nodes);
+  return path_of(m, nodes);
 }
 
 bool is_redundant(Maker& m, const Scope& s) {
@@ -63,7 +74,8 @@ Made paths(Maker& m, const Scope& s) {
   whole.insert(whole.end(), second.begin(), second.end());
   whole.push_back(last);
   if (whole == first) return std::nullopt;
-  return list({way(first), way(whole)});
+  const bool has_ports = !s.has("ladder");
+  return list({has_ports ? path_of(m, first) : way(first), has_ports ? path_of(m, whole) : way(whole)});
 }
 
 /// A place at the end of the paths.
@@ -80,6 +92,18 @@ Made every(Maker& m, const Scope&) {
   return m.word(m.is_long() ? "1ms 2ms 5ms 3333us" : "125us 200us 250us 333us 500us 1ms");
 }
 
+Made payload(Maker& m, const Scope&) {
+  if (m.kept.contains("small_buckets")) return m.word("18B 60B 100B");
+  if (m.kept.contains("mtu") && m.draw.one_in(3)) return m.word("1473B 4000B 8972B");
+  return m.word(m.is_slow() ? "18B 60B 100B 400B" : "18B 60B 100B 200B 500B 900B 1200B 1400B");
+}
+
+/// Bursts are what small buckets hold.
+Made burst(Maker& m, const Scope& s) {
+  if (!m.kept.contains("small_buckets") && !m.draw.one_in(2)) return std::nullopt;
+  return m.object("bursts", &s);
+}
+
 }  // namespace
 
 std::span<const Rule> traffic_rules() {
@@ -91,7 +115,7 @@ std::span<const Rule> traffic_rules() {
          return text(shaped != m.shaped_at.end() ? shaped->second : m.draw.any(m.world.hosts));
        }},
       {.key = "stream.to", .make = to},
-      {.key = "stream.payload", .percent = 90, .make = [](Maker& m, const Scope&) -> Made { return m.word(m.is_slow() ? "18B 60B 100B 400B" : "18B 60B 100B 200B 500B 900B 1200B 1400B"); }},
+      {.key = "stream.payload", .percent = 90, .make = payload},
       {.key = "stream.encapsulation", .percent = 25},
       {.key = "stream.pcp", .percent = 80, .make = [](Maker& m, const Scope& s) -> Made {
          // What windows are laid out for comes at known times.
@@ -102,7 +126,7 @@ std::span<const Rule> traffic_rules() {
       {.key = "stream.every", .percent = 60, .make = every},
       {.key = "stream.exponential", .percent = 15},
       {.key = "stream.normal", .percent = 20},
-      {.key = "stream.burst", .percent = 20},
+      {.key = "stream.burst", .percent = 40, .make = burst},
       {.key = "stream.trace", .feature = Feature::traces, .percent = 50, .words = "bursts.csv steady.csv"},
       {.key = "stream.offset", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return m.word(s.has("every") ? "0us 1us 10us 37us 100us auto auto" : "0us 1us 10us 37us 100us"); }},
       {.key = "stream.until", .percent = 8, .words = "3ms 20ms"},

@@ -79,6 +79,9 @@ Node any_network(Draw& draw, bool wants_circles, std::size_t least_hosts, bool w
     if (s > 0) links.items.push_back(link(sw(is_star ? 0 : s - 1), sw(s)));
   }
   if (switches > 2 && !is_star && (wants_circles || draw.one_in(3))) links.items.push_back(link(sw(switches - 1), sw(0)));
+  // A second link between two switches, by ports that paths name.
+  if (switches > 1 && !wants_stations && draw.one_in(6))
+    links.items.push_back(link(sw(0) + second_link, sw(1) + second_link));
   for (std::size_t h = 0; h < hosts; ++h) {
     nodes.add(host(h), node("host"));
     if (switches > 0) links.items.push_back(link(host(h), sw(h % switches)));
@@ -263,6 +266,18 @@ std::optional<Node> stack_of_thread(Maker& m, const Scope& s) {
   return made;
 }
 
+/// Before an ATS scheduler as long as frames are held, and longer.
+std::optional<Node> forwarding_delay(Maker& m, const Scope&) {
+  return m.word(m.wants(Feature::ats) ? "0ns 1us 3us 10us 30us 100us" : "0ns 500ns 1us 3us");
+}
+
+/// Frames that are longer than most functions expect are for networks without them.
+std::optional<Node> jumbo(Maker& m, const Scope&) {
+  for (const Feature each : {Feature::policing, Feature::ats, Feature::cqf, Feature::automatic_gates, Feature::queue_limits})
+    if (m.wants(each) || m.is_slow()) return std::nullopt;
+  return m.kept.insert_or_assign("mtu", text("9000B")).first->second;
+}
+
 }  // namespace
 
 std::span<const Rule> network_rules() {
@@ -277,6 +292,11 @@ std::span<const Rule> network_rules() {
       {.key = "scenario.allow_overload", .feature = Feature::overload, .percent = 100, .words = "true"},
       {.key = "network.nodes", .percent = 100, .make = nodes_of},
       {.key = "network.links", .percent = 100, .make = links_of},
+      {.key = "network.mtu", .percent = 10, .make = jumbo},
+      {.key = "host.mtu", .percent = 5, .words = "1500B 9000B"},
+      {.key = "switch.mtu", .percent = 5, .words = "9000B"},
+      {.key = "station.mtu", .percent = 5, .words = "9000B"},
+      {.key = "generator.mtu", .percent = 5, .words = "9000B"},
       {.key = "network.generate", .percent = 100, .make = generators_of},
       {.key = "link.ends", .make = name_of_skeleton},
       {.key = "link.rate", .feature = Feature::rates, .percent = 70,
@@ -300,7 +320,7 @@ std::span<const Rule> network_rules() {
       {.key = "generator.rate", .words = "100Mbps 1Gbps"},
       {.key = "generator.host_rate", .words = "100Mbps 1Gbps"},
       {.key = "generator.length", .words = "1m 10m 100m"},
-      {.key = "generator.forwarding_delay", .percent = 50, .words = "0ns 500ns 1us 3us"},
+      {.key = "generator.forwarding_delay", .percent = 50, .make = forwarding_delay},
       {.key = "generator.os", .feature = Feature::latencies, .percent = 60},
       {.key = "generator.queues", .feature = Feature::queue_limits, .percent = 60},
       {.key = "generator.traffic_classes", .feature = Feature::identity_classes, .percent = 60},
@@ -341,7 +361,7 @@ std::span<const Rule> network_rules() {
       {.key = "cpu_thread.every", .percent = 100, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("runs") || s.has("stack") ? m.draw.one_in(3) ? std::optional(m.word("500us 2ms")) : std::nullopt : std::optional(m.word("200us 500us 1ms 2ms")); }},
       {.key = "cpu_thread.offset", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("every") ? std::optional(m.word("0us 50us 199us")) : std::nullopt; }},
       {.key = "station.os", .feature = Feature::latencies, .percent = 70},
-      {.key = "station.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
+      {.key = "station.forwarding_delay", .percent = 70, .make = forwarding_delay},
       {.key = "station.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
       {.key = "station.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
       {.key = "station.queues", .feature = Feature::queue_limits, .percent = 80},
@@ -350,7 +370,7 @@ std::span<const Rule> network_rules() {
       {.key = "station.cryptography", .feature = Feature::security, .percent = 60},
       {.key = "station.processing", .feature = Feature::replies, .percent = 50},
       {.key = "station.offers", .feature = Feature::roles, .percent = 85, .make = offered_skills},
-      {.key = "switch.forwarding_delay", .percent = 70, .words = "0ns 500ns 1us 3us"},
+      {.key = "switch.forwarding_delay", .percent = 70, .make = forwarding_delay},
       {.key = "switch.forwarding_jitter", .percent = 30, .make = jitter_of_switch},
       {.key = "station.forwarding_jitter", .percent = 30, .make = jitter_of_switch},
       {.key = "generator.forwarding_jitter", .percent = 20, .make = jitter_of_switch},

@@ -35,6 +35,7 @@ void LinkDelay::link_up(sim::LocalTime now, Outputs& outputs) {
   request_.pending = false;
   answer_.reset();
   interval_.reset();
+  if (!as_capable()) obstacle_ = NotCapable::unmeasured;
   next_request_ = now;
   send_request(now, outputs);
 }
@@ -42,7 +43,7 @@ void LinkDelay::link_up(sim::LocalTime now, Outputs& outputs) {
 void LinkDelay::link_down(Outputs& outputs) {
   up_ = false;
   outputs.push_back(CancelTimer{{TimerId::no_instance, self_.port, TimerPurpose::pdelay_interval}});
-  set_as_capable(false, outputs);
+  set_obstacle(NotCapable::link_down, outputs);
 }
 
 void LinkDelay::interval_requested(std::int8_t log_interval, sim::LocalTime now, Outputs& outputs) {
@@ -66,7 +67,7 @@ void LinkDelay::interval_elapsed(sim::LocalTime now, Outputs& outputs) {
     if (++lost_responses_ > config_.allowed_lost_responses) {
       ratio_.reset();
       measurements_ = 0;
-      set_as_capable(false, outputs);
+      set_obstacle(NotCapable::no_answer, outputs);
     }
   }
   send_request(now, outputs);
@@ -103,7 +104,7 @@ void LinkDelay::transmitted(const EgressReport& report, Outputs& outputs) {
 
 void LinkDelay::received(const PdelayResp& response, sim::LocalTime ingress, Outputs& outputs) {
   if (!up_ || response.requesting_port != self_ || response.header.sequence_id != request_.sequence_id) return;
-  if (response.header.source.clock == self_.clock) return set_as_capable(false, outputs);  // the port hears itself
+  if (response.header.source.clock == self_.clock) return set_obstacle(NotCapable::own_answer, outputs);
   if (request_.ingress) return fault(outputs);                                             // a second answer
   const std::optional<sim::PtpTime> receipt = joined(response.request_receipt, response.header.correction);
   if (!request_.pending || !receipt) return;
@@ -140,22 +141,22 @@ void LinkDelay::measured(sim::Duration delay, Outputs& outputs) {
     mean_link_delay_ = delay;
   else
     mean_link_delay_ += (delay - mean_link_delay_) / static_cast<std::int64_t>(measurements_);
-  const bool short_enough = !config_.mean_link_delay_thresh || mean_link_delay_ <= *config_.mean_link_delay_thresh;
-  const bool faultless = faults_ <= config_.allowed_faults;
-  set_as_capable(faultless && short_enough && mean_link_delay_ >= config_.lowest_link_delay, outputs);
+  if (faults_ > config_.allowed_faults) return set_obstacle(NotCapable::several_answers, outputs);
+  if (config_.mean_link_delay_thresh && mean_link_delay_ > *config_.mean_link_delay_thresh) return set_obstacle(NotCapable::delay_too_long, outputs);
+  set_obstacle(mean_link_delay_ < config_.lowest_link_delay ? NotCapable::delay_too_short : NotCapable::none, outputs);
 }
 
 // Several answers to a request: there is something between that does not speak gPTP.
 void LinkDelay::fault(Outputs& outputs) {
   if (!request_.faulty) ++faults_;
   request_.faulty = true;
-  if (faults_ > config_.allowed_faults) set_as_capable(false, outputs);
+  if (faults_ > config_.allowed_faults) set_obstacle(NotCapable::several_answers, outputs);
 }
 
-void LinkDelay::set_as_capable(bool as_capable, Outputs& outputs) {
-  if (as_capable_ == as_capable) return;
-  as_capable_ = as_capable;
-  outputs.push_back(AsCapableChange{self_.port, as_capable});
+void LinkDelay::set_obstacle(NotCapable obstacle, Outputs& outputs) {
+  const bool was_capable = as_capable();
+  obstacle_ = obstacle;
+  if (as_capable() != was_capable) outputs.push_back(AsCapableChange{self_.port, as_capable()});
 }
 
 Header LinkDelay::header(std::uint16_t sequence_id) const {

@@ -10,6 +10,19 @@
 
 namespace takt::models::gptp {
 
+/// Why a port is not asCapable (11.2.2). The last one is of a domain, see Capability; all others are of the link.
+enum class NotCapable : std::uint8_t {
+  none,                ///< it is
+  link_down,
+  unmeasured,          ///< too few exchanges so far
+  no_answer,           ///< the neighbour leaves more requests unanswered than are allowed
+  delay_too_long,      ///< beyond meanLinkDelayThresh
+  delay_too_short,
+  several_answers,     ///< to one request: something between that does not speak gPTP
+  own_answer,          ///< the port hears itself
+  neighbor_not_capable ///< no gPTP-capable TLV from the neighbour
+};
+
 struct LinkDelayConfig {
   int log_pdelay_req_interval = 0;                                       // 1 s
   std::size_t neighbor_rate_ratio_window = 8;                            // exchanges
@@ -40,11 +53,15 @@ class LinkDelay {
   void received(const PdelayRespFollowUp& follow_up, Outputs& outputs);
   void transmitted(const EgressReport& report, Outputs& outputs);
 
-  bool as_capable() const { return as_capable_; }
+  bool as_capable() const { return obstacle_ == NotCapable::none; }
+  /// What keeps the link from being asCapable.
+  NotCapable obstacle() const { return obstacle_; }
   bool is_measured() const { return measurements_ > 0; }
   /// In the neighbour's time base, as 802.1AS has it.
   sim::Duration mean_link_delay() const { return mean_link_delay_; }
   sim::Duration delay_asymmetry() const { return config_.delay_asymmetry; }
+  /// Beyond which it is too long; nothing: it never is.
+  const std::optional<sim::Duration>& threshold() const { return config_.mean_link_delay_thresh; }
   /// one() while it is not known.
   ClockRate neighbor_rate_ratio(sim::LocalTime at) const { return ratio_.is_valid() ? ratio_.ratio_at(at) : ClockRate::one(); }
   RateOffset neighbor_rate_ratio_drift() const { return ratio_.drift_per_second(); }
@@ -70,7 +87,7 @@ class LinkDelay {
   void evaluate(Outputs& outputs);
   void measured(sim::Duration delay, Outputs& outputs);
   void fault(Outputs& outputs);
-  void set_as_capable(bool as_capable, Outputs& outputs);
+  void set_obstacle(NotCapable obstacle, Outputs& outputs);
   Header header(std::uint16_t sequence_id) const;
 
   LinkDelayConfig config_;
@@ -78,7 +95,7 @@ class LinkDelay {
   MessageInterval interval_;
   NeighborRateRatio ratio_;
   bool up_ = false;
-  bool as_capable_ = false;
+  NotCapable obstacle_ = NotCapable::link_down;
   int lost_responses_ = 0;
   int faults_ = 0;
   std::size_t measurements_ = 0;

@@ -100,8 +100,9 @@ LinkDelay& Node::mutable_link(PortNumber port) {
 }
 
 Capability& Node::capability(std::size_t instance, PortNumber port) { return capabilities_.at(instance * links_.size() + port - 1U); }
-bool Node::is_capable(std::size_t instance, PortNumber port) const {
-  return link(port).as_capable() && capabilities_.at(instance * links_.size() + port - 1U).is_neighbor_capable();
+NotCapable Node::obstacle(std::size_t instance, PortNumber port) const {
+  if (!link(port).as_capable()) return link(port).obstacle();
+  return capabilities_.at(instance * links_.size() + port - 1U).is_neighbor_capable() ? NotCapable::none : NotCapable::neighbor_not_capable;
 }
 
 PtpInstance* Node::instance_of(std::uint8_t domain) {

@@ -39,7 +39,9 @@ class Node {
   std::size_t instance_count() const { return instances_.size(); }
   const LinkDelay& link(PortNumber port) const;
   /// asCapable (11.2.2): the link is measured and short, and the neighbour has said that it is capable in the domain.
-  bool is_capable(std::size_t instance, PortNumber port) const;
+  bool is_capable(std::size_t instance, PortNumber port) const { return obstacle(instance, port) == NotCapable::none; }
+  /// What keeps the port from it.
+  NotCapable obstacle(std::size_t instance, PortNumber port) const;
 
  private:
   LinkDelay& mutable_link(PortNumber port);

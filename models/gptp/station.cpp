@@ -18,7 +18,9 @@ constexpr sim::EventKind ask_now = 4;
 constexpr sim::Duration software_delay = sim::Duration::from_ps(1000);  // from the last bit of a message to what it causes
 
 NodeConfig node_config(const StationPlan& plan, NodeIndex node, std::size_t ports) {
-  return {Station::identity_of(node), std::vector<LinkDelayConfig>(ports, plan.link), plan.instances, plan.log_gptp_capable_interval};
+  NodeConfig config{Station::identity_of(node), std::vector<LinkDelayConfig>(ports, plan.link), plan.instances, plan.log_gptp_capable_interval};
+  for (const std::uint16_t port : plan.ports_without_threshold) config.ports.at(port).mean_link_delay_thresh.reset();
+  return config;
 }
 
 MessageType type_of(const Message& message) {
@@ -35,6 +37,7 @@ Station::Station(sim::Simulation& simulation, Traffic& traffic, std::span<Egress
       machine_(config_), target_(plan.target), timer_(source_.id(), sim::Phase::timer, timer_due) {
   if (plan.standby) standby_.emplace(*plan.standby, plan.target);
   sent_by_port_.resize(ports.size());
+  capability_.resize(ports.size());
   for (std::size_t port = 0; port < ports.size(); ++port) {
     const std::string name = std::string(path) + ":" + std::to_string(port);
     egress_chance_.emplace_back(simulation.seed(), name, "egress timestamps");
@@ -121,6 +124,7 @@ void Station::clock_changed(const LocalClock&, sim::TrueTime) { rearm(); }
 
 void Station::carry_out() {
   bool timers_changed = false;
+  bool ports_changed = false;
   for (const Output& output : outputs_) {
     if (const auto* const message = std::get_if<SendMessage>(&output)) {
       send(*message);
@@ -134,6 +138,8 @@ void Station::carry_out() {
     } else if (const auto* const cancel = std::get_if<CancelTimer>(&output)) {
       timers_changed = true;
       std::erase_if(armed_, [&](const Armed& armed) { return armed.timer == cancel->timer; });
+    } else if (std::holds_alternative<AsCapableChange>(output) || std::holds_alternative<RoleChange>(output)) {
+      ports_changed = true;
     } else if (const auto* const sample = std::get_if<SyncSample>(&output)) {
       discipline(*sample);
     } else if (const auto* const lost = std::get_if<SyncLost>(&output)) {
@@ -146,6 +152,7 @@ void Station::carry_out() {
     }
   }
   note_change();
+  if (ports_changed) note_capability();
   if (timers_changed) rearm();
 }
 
@@ -335,6 +342,7 @@ void Station::set_up(bool up) {
   rearm();
   if (!up) {
     note_change();
+    note_capability();
     return;
   }
   machine_ = Node(config_);
@@ -350,6 +358,11 @@ void Station::set_up(bool up) {
 
 NodeIndex Station::grandmaster() const {
   return node_of(machine_.instance(active()).grandmaster().root.clock).value_or(node_);
+}
+
+void Station::note_capability() {
+  for (std::uint16_t port = 0; port < capability_.size(); ++port)
+    if (const bool is_capable = up_ && obstacle(port) == NotCapable::none; is_capable != capability_[port].is_capable) capability_[port] = {is_capable, simulation_->now()};
 }
 
 void Station::note_change() {

@@ -59,7 +59,12 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   bool active_is_grandmaster() const { return gives_time(active()); }
   /// Whom the node takes its time from, itself if it is grandmaster.
   NodeIndex grandmaster() const;
+  /// Somebody gives the time that it takes: itself if it is grandmaster; nobody where the root of the tree cannot be grandmaster.
+  bool has_grandmaster() const { return machine_.instance(active()).grandmaster_present(); }
   const Node& machine() const { return machine_; }
+  /// asCapable of a port (from 0) in the domain that the time comes from: why not, and since when it has been as it is.
+  NotCapable obstacle(std::uint16_t port) const { return machine_.obstacle(active(), static_cast<PortNumber>(port + 1)); }
+  sim::TrueTime capability_changed(std::uint16_t port) const { return capability_[port].since; }
   const ClockTarget& target() const { return target_; }
   const std::optional<HotStandby>& standby() const { return standby_; }
   const LocalClock& disciplined() const { return clock_->disciplined(); }
@@ -80,6 +85,10 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
     SendMessage send;
     FrameIndex frame;          // from the egress queue on, of event messages
     std::uint64_t sequence = 0;
+  };
+  struct PortCapability {
+    bool is_capable = false;
+    sim::TrueTime since;
   };
   struct Armed {
     TimerId timer;
@@ -112,6 +121,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   void expire();
   void rearm();
   void note_change();
+  void note_capability();
   void ask_for_intervals(const TimedIntervalRequest& asked);
   std::uint32_t keep(const SendMessage& message);
 
@@ -143,6 +153,7 @@ class Station final : public sim::Component, public ClockListener, public LinkLo
   std::vector<Output> outputs_;
   std::vector<std::byte> octets_;
   std::vector<Change> changes_;
+  std::vector<PortCapability> capability_;   // by port
   std::vector<std::uint64_t> sent_by_port_;
   std::uint64_t messages_sent_ = 0;
   std::uint64_t steps_ = 0;

@@ -23,6 +23,7 @@ struct TimedIntervalRequest {
 struct StationPlan {
   std::vector<InstanceConfig> instances = {InstanceConfig{}};
   LinkDelayConfig link = {};
+  std::vector<std::uint16_t> ports_without_threshold = {};   ///< from 0: whatever delay their links show, it is not too long
   ClockTargetConfig target = {};
   std::optional<std::int8_t> log_gptp_capable_interval = {};   ///< see NodeConfig
   std::optional<HotStandbyConfig> standby = {};   ///< instances 0 and 1 are primary and secondary

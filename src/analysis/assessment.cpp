@@ -1,11 +1,15 @@
 #include "analysis/assessment.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string_view>
 
 #include "analysis/gate_beginning.hpp"
 #include "json/quantity.hpp"
 #include "results/run_result.hpp"
 #include "scenario/figures/requirement.hpp"
+#include "scenario/resolve/gptp_links.hpp"
+#include "scenario/run/clock_groups.hpp"
 
 namespace takt::analysis {
 namespace {
@@ -32,12 +36,37 @@ class Assessor {
   void assess_clocks() {
     if (r_.plan.gptp.empty()) return;
     const ClockPremise premise = clock_premise(r_, options_);
-    const std::string text = "clocks within " + to_text(premise.error);
-    ledger_.state(Assumption::clock_error, premise.after > Duration() ? text + " from " + to_text(premise.after) + " on" : text, premise.after);
+    const std::string text = "clocks of the nodes on a way within " + to_text(premise.difference()) + " of each other";
+    ledger_.state(Assumption::clock_difference, premise.after > Duration() ? text + " from " + to_text(premise.after) + " on" : text, premise.after);
     if (!premise.requirement)
-      ledger_.leave_open(Assumption::clock_error, "no requirement \"sync\" says how good the clocks are, and since when");
+      ledger_.leave_open(Assumption::clock_difference, "no requirement \"sync\" or \"clocks\" says how far clocks may differ, and since when");
     else
-      ledger_.leave_open(Assumption::clock_error, "synchronisation is simulated, not bounded");
+      ledger_.leave_open(Assumption::clock_difference, "synchronisation is simulated, not bounded");
+    if (const std::string why = why_apart(); !why.empty()) ledger_.violate(Assumption::clock_difference, why);
+  }
+
+  /// Nodes whose ways meet, and which gPTP leaves with different grandmasters; empty: there are none.
+  std::string why_apart() const {
+    const std::vector<std::vector<std::uint32_t>> parts = scenario::gptp_parts(r_);
+    if (parts.size() < 2) return {};
+    constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> part_of(r_.plan.nodes.size(), none);
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      for (const std::uint32_t node : parts[p]) part_of[node] = p;
+    for (const std::vector<std::uint32_t>& joined : scenario::nodes_joined_by_ways(r_)) {
+      const auto first = std::ranges::find_if(joined, [&](std::uint32_t node) { return part_of[node] != none; });
+      if (first == joined.end()) continue;
+      const auto other = std::ranges::find_if(joined, [&](std::uint32_t node) { return part_of[node] != none && part_of[node] != part_of[*first]; });
+      if (other != joined.end()) return "no gPTP comes from " + name_of(models::NodeIndex{*first}) + " to " + name_of(models::NodeIndex{*other}) + too_long_link();
+    }
+    return {};
+  }
+  std::string too_long_link() const {
+    for (const models::LinkPlan& link : r_.plan.links)
+      if (r_.plan.gptp[link.a.node.value] && r_.plan.gptp[link.b.node.value] && scenario::capability_of(r_, link) == scenario::LinkCapability::never)
+        return ": the link from " + name_of(link.a.node) + " to " + name_of(link.b.node) + " shows a delay of " + to_text(scenario::shown_link_delay(r_, link).mean()) + ", beyond the threshold of " +
+               to_text(scenario::link_delay_threshold(*r_.scenario.clocks.gptp, link).value_or(Duration()));
+    return {};
   }
 
   void assess_gates() {
@@ -87,7 +116,7 @@ class Assessor {
 
   void assess_beginning() {
     Duration last;
-    for (const Assumption each : {Assumption::clock_error, Assumption::gates_in_force, Assumption::gates_do_not_change, Assumption::no_disturbance})
+    for (const Assumption each : {Assumption::clock_difference, Assumption::gates_in_force, Assumption::gates_do_not_change, Assumption::no_disturbance})
       if (graph_.assumptions.contains(each)) last = std::max(last, ledger_[each].holds_from);
     // What a talker sends that a jump has made late comes at that very instant.
     if (last == Duration() && !jumps_at_start_) {
@@ -105,17 +134,35 @@ class Assessor {
   bool jumps_at_start_ = false;   // a clock
 };
 
+/// Whether the nodes are all whose clocks matter: those with gPTP on ways.
+bool are_all_on_ways(const scenario::Resolved& resolved, const scenario::Names& clocks) {
+  if (scenario::clock_group_name(clocks) == scenario::all_clocks) return true;
+  const std::set<std::string_view> names(clocks.names.begin(), clocks.names.end());
+  for (const std::vector<std::uint32_t>& joined : scenario::nodes_joined_by_ways(resolved))
+    for (const std::uint32_t node : joined)
+      if (resolved.plan.gptp[node] && !names.contains(resolved.plan.nodes[node].name)) return false;
+  return true;
+}
+
+/// How far each clock is from one time at most, if the requirement says it of all that matter.
+std::optional<Duration> clock_error_by(const scenario::Resolved& resolved, const scenario::RequiredFigure& required) {
+  if (required.kind == results::RequirementKind::sync && required.subject.empty()) return required.longest;
+  if (required.kind != results::RequirementKind::clocks || resolved.plan.gptp.empty() || !are_all_on_ways(resolved, *resolved.scenario.require[required.entry].clocks)) return std::nullopt;
+  return Duration::from_ps((required.longest->ps() + 1) / 2);
+}
+
 }  // namespace
 
 ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options) {
   ClockPremise premise{options.clock_error, Duration(), std::nullopt};
   for (std::size_t i = 0; i < resolved.requirements.size(); ++i) {
-    const scenario::RequiredFigure& required = resolved.requirements[i];
-    if (required.kind != results::RequirementKind::sync || !required.subject.empty()) continue;
+    const std::optional<Duration> error = clock_error_by(resolved, resolved.requirements[i]);
+    if (!error) continue;
+    const Duration from = resolved.requirements[i].from;
     // The weakest one is a consequence of each of the others, from whenever that holds.
-    premise.after = premise.requirement ? std::min(premise.after, required.from) : required.from;
-    if (!premise.requirement || *required.longest > premise.error) {
-      premise.error = *required.longest;
+    premise.after = premise.requirement ? std::min(premise.after, from) : from;
+    if (!premise.requirement || *error > premise.error) {
+      premise.error = *error;
       premise.requirement = i;
     }
   }

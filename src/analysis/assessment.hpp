@@ -10,12 +10,15 @@
 
 namespace takt::analysis {
 
-/// How good the clocks are that gPTP holds together, and who says so.
+/// How far clocks that gPTP holds together may differ on a way, and what says so.
 struct ClockPremise {
-  sim::Duration error;
+  sim::Duration error;                       ///< of each clock from a time that all of them share: that of their grandmaster, or the middle between the outermost two
   sim::Duration after;                       ///< since the start
   std::optional<std::size_t> requirement;    ///< in Resolved::requirements; nothing: BoundOptions::clock_error
+  /// Between two nodes on a way.
+  sim::Duration difference() const { return error * 2; }
 };
+/// By requirements on all clocks ("sync"), and on the differences of all clocks that matter ("clocks").
 ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options);
 
 AssumptionLedger assess(const scenario::Resolved& resolved, const FlowGraph& graph, const BoundOptions& options);

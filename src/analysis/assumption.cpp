@@ -18,7 +18,7 @@ constexpr std::array<Text, static_cast<std::size_t>(Assumption::count)> texts = 
     {Assumption::os_latency, true, "os-latency", "Operating systems delay by at most the greatest value of their distributions."},
     {Assumption::execution_times, true, "execution-times", "Jobs take a processor for at most the greatest value of their execution time, and nothing else does."},
     {Assumption::clock_rate, true, "clock-rate", "Oscillators keep to the greatest deviation that the scenario gives them; clocks that nothing holds together slide past each other."},
-    {Assumption::clock_error, false, "clock-error", "Synchronised clocks are within the clock error of each other."},
+    {Assumption::clock_difference, false, "clock-difference", "Synchronised clocks of the nodes on a way, and of ways that meet, are within the clock difference of each other."},
     {Assumption::gptp_traffic, true, "gptp-traffic", "A port sends each kind of gPTP message at most once in half of its interval, in each domain."},
     {Assumption::gates_in_force, false, "gates-in-force", "Gate lists run already, as they do from their base time on."},
     {Assumption::gates_do_not_change, false, "gates-do-not-change", "No frame waits while a gate list is exchanged for another; the bound holds for each list."},

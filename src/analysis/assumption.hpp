@@ -13,7 +13,7 @@ enum class Assumption : std::uint8_t {
   os_latency,
   execution_times,
   clock_rate,
-  clock_error,
+  clock_difference,
   gptp_traffic,
   gates_in_force,
   gates_do_not_change,
@@ -44,7 +44,7 @@ class Assumptions {
   std::uint32_t bits_ = 0;
 };
 
-/// The name in reports, such as "clock-error", and a sentence.
+/// The name in reports, such as "clock-difference", and a sentence.
 std::string_view name_of(Assumption assumption);
 std::string_view text_of(Assumption assumption);
 /// Only the plant can keep it (nothing else is sent, oscillators keep within their tolerance): it is a condition of every proof that needs it, and no

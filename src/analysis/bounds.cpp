@@ -291,6 +291,7 @@ class RequirementBounds {
         {buffered, "takt has no bound for how many values a thread finds buffered"},
         {irregular, "takt has no bound for how regular the pulses of a signal are"},
         {sync, "synchronisation is simulated, not bounded; gates and publishing rest on it"},
+        {clocks, "how far clocks differ is simulated, not bounded; gates and publishing rest on it"},
         {delivered, "a number of delivered frames is no worst case"},
     };
     for (const auto& [kind, reason] : unbounded)

@@ -17,7 +17,7 @@
 namespace takt::analysis {
 
 struct BoundOptions {
-  /// How far synchronised clocks may be from true time, if no requirement "sync" of the scenario says it.
+  /// How far synchronised clocks may be from a time that all nodes on a way share, if no requirement "sync" or "clocks" of the scenario says it: two of them differ by up to twice that.
   sim::Duration clock_error = sim::Duration::from_ps(1'000'000);
   /// False: frames are taken for fluids, which they are not. For tests that must catch a wrong bound.
   bool counts_packets = true;

@@ -19,6 +19,7 @@ using sim::Duration;
 std::string unbounded_text(const Figure& figure) {
   constexpr std::pair<std::string_view, const char*> texts[] = {{"applications", "what applications do, and when"},
                                                                 {"clocks", "clocks: synchronisation is simulated"},
+                                                                {"clock_differences", "clocks: synchronisation is simulated"},
                                                                 {"cpus", "this figure of processors"},
                                                                 {"events", "how many events a run has"},
                                                                 {"ingress", "what filters, gates and meters of the ingress count"},

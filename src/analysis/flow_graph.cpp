@@ -113,10 +113,10 @@ void note_assumptions(const scenario::Resolved& r, const BoundOptions& options, 
   if (GateBeginning(r, options).latest_of_all() > sim::Duration()) all.add(Assumption::gates_in_force);
   if (!r.plan.gptp.empty()) {
     all.add(Assumption::gptp_traffic);
-    all.add(Assumption::clock_error);
+    all.add(Assumption::clock_difference);
   }
   if (std::any_of(r.plan.nodes.begin(), r.plan.nodes.end(), [](const models::NodePlan& node) { return node.clock.has_value(); })) all.add(Assumption::clock_rate);
-  for (const Assumption each : {Assumption::gates_do_not_change, Assumption::no_disturbance, Assumption::gates_in_force, Assumption::clock_error})
+  for (const Assumption each : {Assumption::gates_do_not_change, Assumption::no_disturbance, Assumption::gates_in_force, Assumption::clock_difference})
     if (all.contains(each)) all.add(Assumption::drained);
 }
 

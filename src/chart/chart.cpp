@@ -72,6 +72,19 @@ void draw_rules(Svg& svg, const Frame& frame, const Axis& axis, const std::vecto
   }
 }
 
+/// Texts stand below each other, so that those of moments that are near can be read.
+void draw_moments(Svg& svg, const Frame& frame, const Axis& axis, const std::vector<Moment>& moments) {
+  double y = top + 10;
+  for (const Moment& moment : moments) {
+    if (moment.x < axis.low() || moment.x > axis.high()) continue;
+    const double x = axis.at(moment.x);
+    const bool is_right = x > (left + frame.x_end()) / 2;
+    svg.line({x, top}, {x, frame.y_end()}, Class{"limit"});
+    svg.text({is_right ? x - 4 : x + 4, y}, moment.text, is_right ? Anchor::end : Anchor::start, Class{"note"});
+    y = y + line_height > frame.y_end() ? top + 10 : y + line_height;
+  }
+}
+
 /// `colour` is that of the curve where several stand side by side.
 void draw_whisker(Svg& svg, double x, const Sample& sample, const Axis& y, const std::string& colour = {}) {
   if (!sample.low || !sample.high || *sample.high <= *sample.low) return;
@@ -132,10 +145,11 @@ std::string draw(const LineChart& chart) {
     for (const Sample& sample : series.samples) {
       if (is_crowded) draw_whisker(svg, x.at(sample.x) + aside, sample, y, colours[s]);
       else draw_whisker(svg, x.at(sample.x), sample, y);
-      svg.mark_circle({x.at(sample.x), y.at(sample.y)}, series.is_joined ? 3 : 3.5, colours[s], title_of(series.name, number_text(sample.x), sample));
+      if (series.has_marks) svg.mark_circle({x.at(sample.x), y.at(sample.y)}, series.is_joined ? 3 : 3.5, colours[s], title_of(series.name, number_text(sample.x), sample));
     }
   }
   draw_rules(svg, frame, y, chart.rules);
+  draw_moments(svg, frame, x, chart.moments);
   draw_legend(svg, names, legend_colours, chart.width, chart.height + 9);
   return svg.element(chart.title);
 }

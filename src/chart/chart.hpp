@@ -22,6 +22,7 @@ struct Series {
   std::vector<Sample> samples;    ///< joined in their order, unless they are only marks
   bool is_joined = true;
   std::string colour;             ///< empty: one of the palette
+  bool has_marks = true;          ///< at each sample; curves of many samples do without
 };
 
 /// What an axis shows.
@@ -37,6 +38,12 @@ struct Rule {
   std::string text;
 };
 
+/// A vertical line, such as an event.
+struct Moment {
+  double x = 0;
+  std::string text;
+};
+
 /// Curves or points over numbers.
 struct LineChart {
   std::string title;
@@ -44,6 +51,7 @@ struct LineChart {
   Dimension y;
   std::vector<Series> series;
   std::vector<Rule> rules;
+  std::vector<Moment> moments = {};
   double width = 560;
   double height = 300;
 };

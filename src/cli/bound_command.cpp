@@ -58,7 +58,7 @@ void add_bound_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<ScenarioOptions>();
   add_scenario_options(command, *options);
   const auto clock_error = std::make_shared<std::string>("1us");
-  command.add_option("--clock-error", *clock_error, "How far synchronised clocks are from true time at most, where no requirement \"sync\" says it (1us)").type_name("D");
+  command.add_option("--clock-error", *clock_error, "How far each synchronised clock is at most from the time that all nodes on a way share, so that two differ by twice that, where no requirement \"sync\" or \"clocks\" says it (1us)").type_name("D");
   command.footer(
       "Examples:\n"
       "  takt bound scenarios/robot-arm.json                 bounds by stream, hop and reaction, and what they rest on\n"

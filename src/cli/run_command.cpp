@@ -71,7 +71,8 @@ bool simulate(scenario::DividedRun& run, output::Recording& recording, bool is_r
 
 ExitStatus status_of(const results::RunResult& result) {
   if (result.verdict == results::Verdict::fail) return ExitStatus::requirement_failed;
-  return result.partial ? ExitStatus::interrupted : ExitStatus::pass;
+  if (result.partial) return ExitStatus::interrupted;
+  return result.verdict == results::Verdict::undecided ? ExitStatus::undecided : ExitStatus::pass;
 }
 
 ExitStatus cannot_write(const std::string& problem) {
@@ -172,7 +173,7 @@ void add_run_command(Command app, ExitStatus& status) {
       "  takt run scenarios/ring-1000.json --threads 2\n"
       "  takt run scenarios/robot-arm.json --out out/look --frames --stream camera --from 1s --to 1100ms\n"
       "  takt run scenarios/robot-arm.json --format json | jq .programs.trajectory.reactions\n"
-      "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 130 interrupted.");
+      "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 4 undecided (clocks that follow several grandmasters), 130 interrupted.");
   command.callback([options, &status] { status = run(*options); });
 }
 

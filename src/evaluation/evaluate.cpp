@@ -185,6 +185,9 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   result.queues = queues_of(run);
   result.dropped = drops_of(run, from);
   result.clocks = clocks_of(run, from);
+  result.grandmasters = grandmasters_of(result.clocks);
+  result.gptp_links = gptp_links_of(run);
+  result.clock_differences = clock_differences_of(run, from);
   result.ingress = ingress_of(run);
   result.redundancy = redundancy_of(run);
   return result;

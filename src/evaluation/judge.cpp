@@ -46,7 +46,8 @@ class Judge {
       case RequirementKind::jitter: jitter(stream()); break;
       case RequirementKind::dropped: dropped(stream()); break;
       case RequirementKind::delivered: delivered(stream()); break;
-      case RequirementKind::sync: sync(); break;
+      case RequirementKind::sync: required_.subject.empty() ? sync_of_all() : sync_of_node(); break;
+      case RequirementKind::clocks: clocks(); break;
       case RequirementKind::success: percent(thread().calls); break;
       case RequirementKind::buffered: percent(*thread().values); break;
       case RequirementKind::irregular: irregular(); break;
@@ -120,18 +121,52 @@ class Judge {
     return times;
   }
 
-  void sync() {
+  const std::string& name_of(models::NodeIndex node) const { return run_.network().plan().nodes[node.value].name; }
+
+  /// The distance to one grandmaster says nothing where nodes follow several: then that to the farthest of them counts.
+  void sync_of_all() {
+    const scenario::GrandmasterDistances& seen = run_.clocks()->distances().from(required_.from);
+    Times times = of_looks(seen.samples, seen.greatest);
+    if (seen.greatest > Duration()) times.counted += fmt::format(", the greatest between {} and {} at {}", name_of(seen.node), name_of(seen.grandmaster), to_text(seen.at.since_start()));
+    judge(times);
+    judge_partings(run_.clocks()->partings());
+  }
+
+  void sync_of_node() {
+    const auto& clocks = run_.clocks()->figures();
+    const auto clock = std::ranges::find_if(clocks, [&](const scenario::ClockFigures& each) { return name_of(each.node) == required_.subject; });
+    if (clock == clocks.end()) return judge(of_looks(0, {}));
+    const scenario::ClockFigures::Distances& seen = clock->distances.from(required_.from);
+    Times times = of_looks(seen.samples, seen.greatest);
+    if (seen.greatest > Duration()) times.counted += fmt::format(", the greatest at {}", to_text(seen.at.since_start()));
+    judge(times);
+    judge_partings(clock->alone);
+  }
+
+  void clocks() {
+    const auto seen = std::ranges::find(figures_.result.clock_differences, required_.subject, &ClockDifferenceResult::name);
+    Times times = of_looks(seen->samples, seen->greatest.value_or(Duration()));
+    if (times.longest && *times.longest > Duration()) times.counted += fmt::format(", {} ahead of {} at {}", seen->ahead, seen->behind, to_text(seen->at->since_start()));
+    judge(times);
+  }
+
+  static Times of_looks(std::uint64_t samples, Duration greatest) {
     Times times;
-    std::uint64_t samples = 0;
-    for (const scenario::ClockFigures& clock : run_.clocks()->figures()) {
-      if (!required_.subject.empty() && run_.network().plan().nodes[clock.node.value].name != required_.subject) continue;
-      const scenario::ClockFigures::Distances& seen = clock.distances.from(required_.from);
-      samples += seen.samples;
-      if (seen.samples > 0) times.longest = std::max(times.longest.value_or(Duration()), seen.greatest);
-    }
+    if (samples > 0) times.longest = greatest;
     times.counted = fmt::format("{} samples", samples);
     times.none = "not looked at";
-    judge(times);
+    return times;
+  }
+
+  /// Clocks that nothing holds together drift apart: how near they are in this run decides nothing.
+  void judge_partings(const std::vector<scenario::Parting>& partings) {
+    const auto found = std::ranges::find_if(partings, [&](const scenario::Parting& each) { return !each.until || each.until->since_start() > required_.from; });
+    if (found == partings.end()) return;
+    const std::string whom = !found->grandmaster ? "nobody" : *found->grandmaster == found->node ? "itself" : name_of(*found->grandmaster);
+    std::string words = !found->leader ? "no node can be grandmaster" : fmt::format("{} follows {} and not {}", name_of(found->node), whom, name_of(*found->leader));
+    words += fmt::format(", from {} {}", to_text(found->from.since_start()), found->until ? "to " + to_text(found->until->since_start()) : std::string("on"));
+    verdict_.remark = words + "; " + verdict_.remark;
+    if (verdict_.verdict == Verdict::pass) verdict_.verdict = Verdict::undecided;
   }
 
   void judge(const Times& times) {

@@ -8,15 +8,25 @@
 #include "output/csv_field.hpp"
 
 namespace takt::output {
-ClockSeries::ClockSeries(const models::Network& network, std::string path) : network_(&network), file_(std::move(path)) {
-  file_.write("time_s,node,grandmaster,offset_ns\n");
+namespace {
+
+/// In nanoseconds, with its sign.
+std::string in_ns(sim::Duration offset) {
+  const std::int64_t ps = offset.ps();
+  return fmt::format("{}{}.{:03}", ps < 0 ? "-" : "", std::llabs(ps) / 1000, std::llabs(ps) % 1000);
 }
 
-void ClockSeries::sample(sim::TrueTime time, models::NodeIndex node, models::NodeIndex grandmaster, sim::Duration offset) {
+}  // namespace
+
+ClockSeries::ClockSeries(const models::Network& network, std::string path) : network_(&network), file_(std::move(path)) {
+  file_.write("time_s,node,grandmaster,offset_ns,true_offset_ns\n");
+}
+
+void ClockSeries::sample(const scenario::ClockSample& sample) {
   const std::vector<models::NodePlan>& nodes = network_->plan().nodes;
-  const std::int64_t ps = offset.ps();
-  file_.write(fmt::format("{}.{:012},{},{},{}{}.{:03}\n", time.ps() / 1'000'000'000'000, time.ps() % 1'000'000'000'000, csv_field(nodes[node.value].name),
-                          csv_field(nodes[grandmaster.value].name), ps < 0 ? "-" : "", std::llabs(ps) / 1000, std::llabs(ps) % 1000));
+  const std::int64_t at = sample.time.ps();
+  file_.write(fmt::format("{}.{:012},{},{},{},{}\n", at / 1'000'000'000'000, at % 1'000'000'000'000, csv_field(nodes[sample.node.value].name), csv_field(nodes[sample.grandmaster.value].name),
+                          in_ns(sample.offset), in_ns(sample.true_offset)));
 }
 
 }  // namespace takt::output

@@ -8,11 +8,11 @@
 
 namespace takt::output {
 
-/// Columns: time in seconds, node, grandmaster, offset of the node's clock from the grandmaster's in nanoseconds. Writes as it goes.
+/// Columns: time in seconds, node, grandmaster, offsets of the node's clock from the grandmaster's and from true time in nanoseconds. Writes as it goes.
 class ClockSeries final : public scenario::ClockSampleSink {
  public:
   ClockSeries(const models::Network& network, std::string path);
-  void sample(sim::TrueTime time, models::NodeIndex node, models::NodeIndex grandmaster, sim::Duration offset) override;
+  void sample(const scenario::ClockSample& sample) override;
   /// Gives the file its name. Returns an empty text, or what went wrong.
   [[nodiscard]] std::string close() { return file_.close(); }
 

@@ -144,6 +144,33 @@ std::string port_features_part(const RunResult& result, const Layout& layout) {
 /// Offsets with their sign.
 std::string signed_time(Duration offset) { return offset < Duration() ? "-" + readable(Duration() - offset) : readable(offset); }
 
+/// "20 s: gm lost", "20.25 s: h1 leads".
+std::string grandmasters_part(const RunResult& result, const Layout& layout) {
+  if (result.grandmasters.empty()) return {};
+  std::string out = heading("Grandmasters: when another node was locked to one, and when that was over");
+  const std::size_t shown = layout.all ? result.grandmasters.size() : std::min(result.grandmasters.size(), most_features);
+  for (std::size_t i = 0; i < shown; ++i) out += fmt::format("  {:>14}  {} {}\n", readable(result.grandmasters[i].at.since_start()), result.grandmasters[i].node, result.grandmasters[i].event);
+  if (result.grandmasters.size() > shown) out += fmt::format("  ... {} more\n", result.grandmasters.size() - shown);
+  return out;
+}
+
+std::string clock_differences_part(const RunResult& result) {
+  std::string out;
+  for (const results::ClockDifferenceResult& each : result.clock_differences) {
+    if (!each.greatest || *each.greatest == Duration()) continue;
+    const std::string whose = each.name == "all" ? "all nodes" : each.name.starts_with("ways") ? "nodes on " + each.name : each.name;
+    out += fmt::format("  {}: {}, {} ahead of {} at {}\n", whose, readable(*each.greatest), each.ahead, each.behind, readable(each.at->since_start()));
+  }
+  return out.empty() ? out : heading("Greatest differences of two clocks") + out;
+}
+
+std::string incapable_links_part(const RunResult& result, const Layout& layout) {
+  FeatureTable table("Ports that are not capable of gPTP");
+  for (const results::GptpLinkResult& each : result.gptp_links)
+    if (!each.is_capable) table.add(fmt::format("{}:{} to {}", each.node, each.port, each.peer), each.why_not, true);
+  return table.text(layout);
+}
+
 /// The worst clocks, and who is grandmaster when.
 std::string clocks_part(const RunResult& result, const Layout& layout) {
   if (result.clocks.empty()) return {};
@@ -153,15 +180,15 @@ std::string clocks_part(const RunResult& result, const Layout& layout) {
   std::stable_sort(clocks.begin(), clocks.end(), [&](const auto* a, const auto* b) { return worst(a) > worst(b); });
   const std::size_t shown = layout.all ? clocks.size() : std::min(clocks.size(), most_features);
   using enum Table::Align;
-  Table table({{"node", left}, {"grandmaster", left, 1}, {"state", left}, {"locked after", quantity, 3}, {"min", quantity}, {"mean", quantity, 5}, {"rms", quantity, 4}, {"max", quantity}, {"rate error", quantity, 2}, {"steps", right}});
+  Table table({{"node", left}, {"grandmaster", left, 1}, {"state", left}, {"locked after", quantity, 3}, {"min", quantity}, {"mean", quantity, 5}, {"rms", quantity, 4}, {"max", quantity}, {"greatest at", quantity, 6}, {"rate error", quantity, 2}, {"steps", right}});
   for (std::size_t i = 0; i < shown; ++i) {
     const results::ClockResult& c = *clocks[i];
-    table.add({c.node, c.grandmaster, c.state, c.time_to_lock ? readable(*c.time_to_lock) : c.state == "grandmaster" ? "-" : "never", signed_time(c.least), signed_time(c.mean), readable(c.rms),
-               signed_time(c.greatest), fmt::format("{:.1f} ppb", static_cast<double>(c.frequency_error_ppt) / 1000.0), std::to_string(c.steps)});
+    table.add({c.node, c.grandmaster, c.state, c.time_to_lock ? readable(*c.time_to_lock) : c.was_never_to_lock() ? "-" : "never", signed_time(c.least), signed_time(c.mean), readable(c.rms),
+               signed_time(c.greatest), c.greatest_at ? readable(c.greatest_at->since_start()) : "-", fmt::format("{:.1f} ppb", static_cast<double>(c.frequency_error_ppt) / 1000.0), std::to_string(c.steps)});
   }
   std::string out = heading("Clocks, by their greatest offset from the grandmaster since they were locked") + table.text(layout);
   if (clocks.size() > shown) out += fmt::format("  ... {} more\n", clocks.size() - shown);
-  return out;
+  return out + grandmasters_part(result, layout) + clock_differences_part(result) + incapable_links_part(result, layout);
 }
 
 std::string filter_name(const results::StreamFilterResult& filter) {

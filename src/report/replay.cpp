@@ -51,6 +51,7 @@ Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& res
     watch_ = std::make_unique<GateWatch>(run_, *cycle_);
     sinks_.add(*watch_);
   }
+  if (!result.clocks.empty()) run_.set_clock_sink(&clocks_.emplace(run_, result));
   if (!ways_.is_complete()) sinks_.add(way_recorder_.emplace(run_.network(), ways_));
 }
 
@@ -61,16 +62,16 @@ bool Replay::run_until(sim::TrueTime time, const std::function<bool()>& is_inter
   return true;
 }
 
-/// On to the end, if need be: when the slowest frames come is in no result.
-bool Replay::find_ways(const std::function<bool()>& is_interrupted) {
+/// On to the end, if need be: when the slowest frames come is in no result, nor are the offsets of clocks.
+bool Replay::go_to_end(const std::function<bool()>& is_interrupted) {
   constexpr std::uint64_t events_a_slice = 200'000;
-  while (!ways_.is_complete() && !run_.simulation().run(end_, events_a_slice))
+  while ((clocks_ || !ways_.is_complete()) && !run_.simulation().run(end_, events_a_slice))
     if (is_interrupted()) return false;
   return true;
 }
 
 bool Replay::advance(const std::function<bool()>& is_interrupted) {
-  if (sinks_.empty()) return true;
+  if (sinks_.empty() && !clocks_) return true;
   way_recorder_ ? run_.explain_to(&sinks_) : run_.simulation().set_trace(&sinks_);
   sim::TrueTime last;
   for (const Excerpt& excerpt : excerpts_) last = std::max(last, excerpt.to + run_.resolved().programs[excerpt.program].description->cycle * 2);
@@ -80,8 +81,9 @@ bool Replay::advance(const std::function<bool()>& is_interrupted) {
     watch_->look_at_gates();
     last = std::max(last, cycle_->until);
   }
-  if (goes_on) goes_on = run_until(last, is_interrupted) && find_ways(is_interrupted);
+  if (goes_on) goes_on = run_until(last, is_interrupted) && go_to_end(is_interrupted);
   run_.simulation().set_trace(nullptr);
+  if (clocks_) clocks_->finish();
   return goes_on;
 }
 

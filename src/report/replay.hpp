@@ -9,6 +9,7 @@
 #include "chart/gantt.hpp"
 #include "chart/sequence_chart.hpp"
 #include "output/fan_out.hpp"
+#include "report/clocks_figure.hpp"
 #include "report/gates_figure.hpp"
 #include "report/sequence_figure.hpp"
 #include "report/worst_ways.hpp"
@@ -33,10 +34,12 @@ class Replay {
   std::optional<chart::Gantt> gates() const;
   /// Of each stream the slowest frame.
   const WorstWays& ways() const { return ways_; }
+  /// None without gPTP.
+  std::optional<chart::LineChart> clocks() const { return clocks_ ? clocks_->figure() : std::nullopt; }
 
  private:
   bool run_until(sim::TrueTime time, const std::function<bool()>& is_interrupted);
-  bool find_ways(const std::function<bool()>& is_interrupted);
+  bool go_to_end(const std::function<bool()>& is_interrupted);
 
   scenario::Run run_;
   std::vector<Excerpt> excerpts_;
@@ -45,6 +48,7 @@ class Replay {
   std::optional<Span> cycle_;
   WorstWays ways_;
   std::optional<explain::WayRecorder> way_recorder_;
+  std::optional<ClockCurves> clocks_;
   sim::TrueTime end_;   // of what was judged
   output::FanOut sinks_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "chart/chart.hpp"
 #include "chart/histogram.hpp"
 #include "chart/page.hpp"
 #include "chart/svg.hpp"
@@ -119,17 +120,27 @@ std::string violations(const RunResult& result) {
   return rows.empty() ? rows : chart::section("Violations of invariants") + rows;
 }
 
-std::string clocks(const RunResult& result) {
+std::string clocks(const RunResult& result, const std::optional<chart::LineChart>& curves) {
   std::vector<const results::ClockResult*> order;
   for (const results::ClockResult& clock : result.clocks) order.push_back(&clock);
   const auto worst = [](const results::ClockResult* clock) { return std::max(std::abs(clock->least.ps()), std::abs(clock->greatest.ps())); };
   std::stable_sort(order.begin(), order.end(), [&](const auto* a, const auto* b) { return worst(a) > worst(b); });
-  chart::Table table({"clock", "grandmaster", "state at the end", "locked after", "least", "greatest", "rms"}, 60);
+  chart::Table table({"clock", "grandmaster", "state at the end", "locked after", "least", "greatest", "greatest at", "rms"}, 60);
   for (const results::ClockResult* clock : order)
-    table.row({{clock->node}, {clock->grandmaster}, {clock->state}, {clock->time_to_lock ? readable(*clock->time_to_lock) : "never", true, clock->time_to_lock ? "" : "fail"},
-               {readable(clock->least), true}, {readable(clock->greatest), true}, {readable(clock->rms), true}});
+    table.row({{clock->node}, {clock->grandmaster}, {clock->state}, {clock->time_to_lock ? readable(*clock->time_to_lock) : clock->was_never_to_lock() ? "-" : "never", true, clock->time_to_lock || clock->was_never_to_lock() ? "" : "fail"},
+               {readable(clock->least), true}, {readable(clock->greatest), true}, {clock->greatest_at ? readable(clock->greatest_at->since_start()) : "-", true}, {readable(clock->rms), true}});
   const std::string rows = table.take();
-  return rows.empty() ? rows : chart::section("Clocks", "Offsets from the grandmaster since a clock was locked first; the worst first.") + rows;
+  if (rows.empty()) return rows;
+  chart::Table leaders({"at", "grandmaster", ""}, 60);
+  for (const results::GrandmasterResult& each : result.grandmasters) leaders.row({{readable(each.at.since_start()), true}, {each.node}, {each.event}});
+  chart::Table differences({"clocks of", "greatest difference", "at", "ahead", "behind"}, 60);
+  for (const results::ClockDifferenceResult& each : result.clock_differences)
+    if (each.greatest) differences.row({{each.name}, {readable(*each.greatest), true}, {readable(each.at->since_start()), true}, {each.ahead}, {each.behind}});
+  chart::Table links({"port", "to", "not capable of gPTP"}, 60);
+  for (const results::GptpLinkResult& each : result.gptp_links)
+    if (!each.is_capable) links.row({{fmt::format("{}:{}", each.node, each.port)}, {each.peer}, {each.why_not, false, "fail"}});
+  return chart::section("Clocks", "Offsets from the grandmaster since a clock was locked first; the worst first.") + (curves ? chart::charts({draw(*curves)}) : std::string()) + rows + leaders.take() +
+         differences.take() + links.take();
 }
 
 std::string drops(const RunResult& result) {
@@ -159,7 +170,7 @@ std::string run_page(const scenario::Resolved& resolved, const RunResult& result
   page += chart::section("The network") + chart::charts({draw(network_figure(resolved, &result))});
   if (const auto gates = replay.gates(); gates && !gates->rows.empty())
     page += chart::section("Gates", "Green: the gate of the class is open. Bars: frames on the wire; rest the mouse on one.") + chart::charts({draw(*gates)});
-  page += reactions(result, replay) + streams(result) + ways_section(replay.ways()) + ports(result) + clocks(result) + drops(result);
+  page += reactions(result, replay) + streams(result) + ways_section(replay.ways()) + ports(result) + clocks(result, replay.clocks()) + drops(result);
   return page + chart::page_end();
 }
 

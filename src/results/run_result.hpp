@@ -22,7 +22,7 @@ using sim::TrueTime;
 enum class Verdict : std::uint8_t {
   pass,
   fail,
-  undecided,  ///< the run was interrupted before it could fail
+  undecided,  ///< the run was interrupted before it could fail, or its clocks follow several grandmasters
 };
 const char* name_of(Verdict verdict);
 inline constexpr const char* nothing_was_required = "nothing was required";
@@ -133,7 +133,7 @@ struct ProgramResult {
 };
 
 /// What a requirement is about.
-enum class RequirementKind : std::uint8_t { reaction, latency, jitter, dropped, delivered, sync, success, buffered, irregular, figure, invariants };
+enum class RequirementKind : std::uint8_t { reaction, latency, jitter, dropped, delivered, sync, clocks, success, buffered, irregular, figure, invariants };
 
 /// A figure of the result and the limit that was asked of it, both in its unit.
 struct FigureResult {
@@ -207,6 +207,9 @@ struct RunResult {
   std::vector<QueueResult> queues;         ///< those that have held a frame
   std::vector<std::pair<std::string, std::uint64_t>> dropped;  ///< frames of all streams by reason, only those that occurred
   std::vector<ClockResult> clocks;         ///< of nodes with gPTP
+  std::vector<GrandmasterResult> grandmasters;           ///< who gave the time when
+  std::vector<GptpLinkResult> gptp_links;                ///< ports of nodes with gPTP
+  std::vector<ClockDifferenceResult> clock_differences;  ///< by group of nodes
   std::vector<IngressResult> ingress;      ///< of switches whose ingress has met a frame
   RedundancyResult redundancy;
 };

@@ -147,7 +147,7 @@ const json::Record& describe(json::Type<RunResult>) {
       json::output<&RunResult::events>("events", "Events handled."),
       json::output_if_any<&RunResult::from>("from_ps", "The figures are of what began then or later.", "with `warm_up`"),
       json::output<&verdict_text>("verdict",
-                                  "`pass`, `fail`, `undecided` for a partial run that has not failed, or `nothing was required` (exit status 0) where neither the scenario nor a Program asks for "
+                                  "`pass`, `fail`, `undecided` for a partial run that has not failed and for clocks that follow several grandmasters, or `nothing was required` (exit status 0) where neither the scenario nor a Program asks for "
                                   "anything.",
                                   {.is_judgement = true}),
       json::output<&RunResult::requirements>("requirements", "What was required.", {.is_judgement = true}),
@@ -161,6 +161,10 @@ const json::Record& describe(json::Type<RunResult>) {
       json::output<&RunResult::queues>("queues", "Queues of traffic classes in which frames have waited.", {.counts_from_start = true}),
       json::output<&RunResult::dropped>("dropped", "Frames that were dropped in the whole network, by reason; only reasons that occurred.", {.keys = "reason", .is_zero_if_absent = true}),
       json::output<&RunResult::clocks>("clocks", "Nodes with gPTP."),
+      json::output<&RunResult::grandmasters>("grandmasters", "Who gave the time when: the first 4096 changes.", {.counts_from_start = true}),
+      json::output<&RunResult::gptp_links>("gptp_links", "Ports of nodes with gPTP.", {.counts_from_start = true}),
+      json::outputs_by_name<&RunResult::clock_differences, &ClockDifferenceResult::name>(
+          "clock_differences", "How far clocks were apart: of `all` nodes, of those that `ways` of streams join (with a number where streams leave the network in several parts), and of those that a requirement names.", {.keys = "nodes"}),
       json::outputs_by_name<&RunResult::ingress, &IngressResult::node>("ingress", "The ingress of switches that have met a frame, with names and meanings of IEEE 802.1Q 8.6.5.", {.keys = "node", .counts_from_start = true}),
       json::output<&RunResult::redundancy>("redundancy", "Splitting and joining of streams (IEEE 802.1CB 10).", {.counts_from_start = true}),
   };

@@ -14,6 +14,7 @@
 #include "scenario/gates/timing.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "scenario/run/clock_groups.hpp"
 #include "scenario/run/run.hpp"
 
 namespace takt::synthesis {
@@ -46,28 +47,6 @@ Scenario for_clocks(const Scenario& wanted) {
   return made;
 }
 
-/// The greatest offset of a run from some instant on, and whether at some look nodes had different grandmasters.
-class Distances final : public scenario::ClockSampleSink {
- public:
-  explicit Distances(Duration from) : from_(sim::TrueTime() + from) {}
-  void sample(sim::TrueTime time, models::NodeIndex, models::NodeIndex grandmaster, Duration offset) override {
-    if (time < from_) return;
-    ++samples;
-    greatest = std::max({greatest, offset, Duration() - offset});
-    if (time == last_ && grandmaster.value != grandmaster_.value) has_two = true;
-    last_ = time;
-    grandmaster_ = grandmaster;
-  }
-  std::uint64_t samples = 0;
-  Duration greatest;
-  bool has_two = false;
-
- private:
-  sim::TrueTime from_;
-  sim::TrueTime last_;
-  models::NodeIndex grandmaster_;
-};
-
 class Measurement {
  public:
   Measurement(const Scenario& wanted, json::Diagnostics& diagnostics) : wanted_(wanted), diagnostics_(diagnostics), place_(wanted.gates->where.at("margin")) {}
@@ -84,7 +63,8 @@ class Measurement {
     if (!is_synchronised_all_the_way(*resolved, gated->problem)) return std::nullopt;
     const analysis::ClockPremise premise = analysis::clock_premise(*resolved, {});
     made_.from = premise.requirement ? premise.after : wanted_.warm_up;
-    if (premise.requirement) made_.required = premise.error;
+    if (premise.requirement) made_.required = premise.difference();
+    made_.nodes = nodes_on_ways(*resolved);
     if (made_.from >= wanted_.duration) return refuse("nothing to measure clocks by", json::to_text(made_.from) + " of " + json::to_text(wanted_.duration) + " pass before", "a longer \"duration\"");
     for (; made_.seeds < clock_margin_seeds; ++made_.seeds) {
       bare.seed = wanted_.seed + made_.seeds;
@@ -94,9 +74,9 @@ class Measurement {
     for (std::uint32_t n = 0; n < resolved->plan.nodes.size(); ++n)
       if (resolved->plan.gptp[n]) rate_ppt = std::max(rate_ppt, analysis::clock_quality(*resolved, models::NodeIndex{n}, {}).rate_ppt);
     made_.between_looks = drift_apart(bare.clocks.gptp->report_every / 2, rate_ppt);
-    made_.error = whole_ns(std::max(made_.measured + made_.between_looks, made_.required.value_or(Duration())));
+    made_.difference = whole_ns(std::max(made_.measured + made_.between_looks, made_.required.value_or(Duration())));
     made_.on_the_way = drift_apart(longest_wait(gated->problem), rate_ppt);
-    made_.margin = whole_ns(made_.error * 2 + made_.on_the_way);
+    made_.margin = whole_ns(made_.difference + made_.on_the_way);
     constexpr Duration most = Duration::from_ps(1'000'000'000'000);   // as for a margin that is written
     if (made_.margin > most) return refuse("clocks that are too far apart for gates", json::to_text(made_.margin) + " as margin", "clocks that need at most " + json::to_text(most));
     return made_;
@@ -122,12 +102,9 @@ class Measurement {
     const auto resolved = scenario::resolve(seeded, diagnostics_);
     if (!resolved || diagnostics_.has_errors()) return false;
     const std::string in_a_run = fmt::format(" in a run with seed {}", seeded.seed);
-    const std::string later = made_.required ? "a later \"after\" of the requirement \"sync\"" : "a longer \"warm_up\", or a requirement \"sync\" with \"after\"";
+    const std::string later = made_.required ? "a later \"after\" of the requirement on clocks" : "a longer \"warm_up\", or a requirement \"sync\" with \"after\"";
     scenario::Run run(*resolved);
-    Distances distances(made_.from);
-    run.set_clock_sink(&distances);
     run.advance();
-    run.set_clock_sink(nullptr);
     for (const scenario::ClockFigures& each : run.clocks()->figures()) {
       const models::gptp::Station& station = *run.network().station(each.node);
       if (station.grandmaster() == each.node || (each.locked && *each.locked <= sim::TrueTime() + made_.from)) continue;
@@ -136,12 +113,29 @@ class Measurement {
       refuse("clocks that are not synchronised in time", fmt::format("{} follows its grandmaster {}{}, not by {}", json::quote(name), since, in_a_run, json::to_text(made_.from)), later);
       return false;
     }
-    if (distances.samples == 0) return refuse("nothing to measure clocks by", "no look at them" + in_a_run, "a longer \"duration\""), false;
-    if (distances.has_two) return refuse("clocks that follow two grandmasters", "two at one instant" + in_a_run + " from " + json::to_text(made_.from) + " on", "one, or a duration as margin"), false;
-    made_.measured = std::max(made_.measured, distances.greatest);
-    if (made_.required && distances.greatest > *made_.required)
-      return refuse("clocks that are worse than is required", json::to_text(distances.greatest) + in_a_run, "at most the " + json::to_text(*made_.required) + " of the requirement \"sync\""), false;
+    for (const scenario::Parting& each : run.clocks()->partings())
+      if (!each.until || each.until->since_start() > made_.from)
+        return refuse("clocks that follow two grandmasters", resolved->plan.nodes[each.node.value].name + " follows another one than the rest" + in_a_run + " at " + json::to_text(each.from.since_start()), "one, or a duration as margin"), false;
+    for (std::size_t g = 0; g < run.clocks()->groups().size(); ++g)
+      if (run.clocks()->groups()[g].name.starts_with(scenario::clocks_on_ways) && !take(run.clocks()->differences(g).from(made_.from), *resolved, in_a_run)) return false;
     return true;
+  }
+
+  bool take(const scenario::ClockDifferences& seen, const Resolved& resolved, const std::string& in_a_run) {
+    if (seen.samples == 0) return refuse("nothing to measure clocks by", "no look at them" + in_a_run, "a longer \"duration\""), false;
+    made_.measured = std::max(made_.measured, seen.greatest);
+    if (!made_.required || seen.greatest <= *made_.required) return true;
+    const auto name = [&](models::NodeIndex node) { return json::quote(resolved.plan.nodes[node.value].name); };
+    return refuse("clocks that are worse than is required", json::to_text(seen.greatest) + " between " + name(seen.behind) + " and " + name(seen.ahead) + in_a_run, "at most the " + json::to_text(*made_.required) + " of the requirement on clocks"), false;
+  }
+
+  /// Those with gPTP: the others send nothing that is scheduled.
+  static std::vector<std::string> nodes_on_ways(const Resolved& resolved) {
+    std::vector<std::string> names;
+    for (const std::vector<std::uint32_t>& joined : scenario::nodes_joined_by_ways(resolved))
+      for (const std::uint32_t node : joined)
+        if (resolved.plan.gptp[node]) names.push_back(resolved.plan.nodes[node].name);
+    return names;
   }
 
   /// For how long a frame is under way, and may stand before gates, by clocks that drift.
@@ -167,9 +161,10 @@ std::optional<ClockMargin> measure_clock_margin(const Scenario& wanted, json::Di
 
 Scenario with_clock_margin(Scenario scenario, const ClockMargin& margin) {
   scenario.gates->margin = json::OrAuto<Duration>(margin.margin);
-  if (margin.required) return scenario;
+  if (margin.required || margin.nodes.size() < 2) return scenario;
   scenario::Requirement kept;
-  kept.sync = margin.error;
+  kept.clocks = scenario::Names{margin.nodes};
+  kept.within.emplace().time = margin.difference;
   kept.after = margin.from;
   scenario.require.push_back(std::move(kept));
   return scenario;
@@ -177,13 +172,13 @@ Scenario with_clock_margin(Scenario scenario, const ClockMargin& margin) {
 
 const json::Record& describe(json::Type<ClockMargin>) {
   static constexpr json::Output outputs[] = {
-      json::output<&ClockMargin::margin>("margin_ps", "By how much clocks of two nodes may differ: twice the error and what drifts on the way, in whole ns."),
-      json::output<&ClockMargin::error>("error_ps", "How far a clock may be from its grandmaster's: what is required, or what was measured and drifts between looks if that is more."),
+      json::output<&ClockMargin::margin>("margin_ps", "By how much clocks of two nodes on a way may differ while a frame is under way: the difference and what drifts on the way, in whole ns."),
+      json::output<&ClockMargin::difference>("difference_ps", "By how much clocks of two nodes on a way may differ at one instant: what is required, or what was measured and drifts between looks if that is more."),
       json::output<&ClockMargin::seeds>("seeds", "Runs of the scenario that it was measured in, with seeds from its own on."),
       json::output<&ClockMargin::from>("from_ps", "Measured from then on."),
-      json::output<&ClockMargin::measured>("measured_ps", "The greatest distance in all runs."),
+      json::output<&ClockMargin::measured>("measured_ps", "The greatest difference of two clocks in all runs."),
       json::output<&ClockMargin::between_looks>("between_looks_ps", "Bound of what oscillators drift apart from the nearest look on."),
-      json::output<&ClockMargin::required>("required_ps", "The requirement `sync` of the scenario; null: it has none, and gets the error as one."),
+      json::output<&ClockMargin::required>("required_ps", "What requirements of the scenario let clocks differ by; null: it has none, and gets the difference as a requirement `clocks`."),
       json::output<&ClockMargin::on_the_way>("on_the_way_ps", "Bound of what oscillators drift apart in a period and on the way of a scheduled frame."),
   };
   static constexpr json::Record record{"clock_margin", "The margin \"auto\" of gates, and what it is made of.", outputs};

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "json/diagnostics.hpp"
 #include "json/type.hpp"
@@ -10,16 +12,17 @@
 
 namespace takt::synthesis {
 
-/// The margin of gates and what it is made of. Some parts are bounds, some are measured: other seeds may do worse, which the requirement "sync" of the schedule then tells.
+/// The margin of gates and what it is made of. Some parts are bounds, some are measured: other seeds may do worse, which the requirement "clocks" of the schedule then tells.
 struct ClockMargin {
   std::uint64_t seeds = 0;                  ///< runs of the scenario, without gates
   sim::Duration from;                       ///< measured from then on
-  sim::Duration measured;                   ///< greatest distance of a clock from its grandmaster's, in all runs
+  sim::Duration measured;                   ///< greatest difference of two clocks on ways that meet, in all runs
   sim::Duration between_looks;              ///< bound: what two oscillators drift apart between an instant and the nearest look at them
-  std::optional<sim::Duration> required;    ///< the scenario's own "sync", on which bounds rest
-  sim::Duration error;                      ///< the greater of what is required and what was measured and drifts; whole ns
+  std::optional<sim::Duration> required;    ///< what the scenario's own requirements let them differ by, on which bounds rest
+  sim::Duration difference;                 ///< the greater of what is required and what was measured and drifts; whole ns
   sim::Duration on_the_way;                 ///< bound: what two oscillators drift apart in a cycle of the gates and the longest way of a scheduled frame
-  sim::Duration margin;                     ///< twice the error and what drifts on the way; whole ns
+  sim::Duration margin;                     ///< the difference and what drifts on the way; whole ns
+  std::vector<std::string> nodes = {};      ///< whose clocks they are
 };
 
 constexpr std::uint64_t clock_margin_seeds = 8;
@@ -33,7 +36,7 @@ inline bool has_margin_to_measure(const scenario::Scenario& scenario) {
 /// grandmasters, or are worse than the scenario requires; or the scenario is wrong. Precondition: has_margin_to_measure().
 std::optional<ClockMargin> measure_clock_margin(const scenario::Scenario& wanted, json::Diagnostics& diagnostics);
 
-/// The same with that margin as a number; and the error as requirement "sync", on which bounds rest, if it has none.
+/// The same with that margin as a number; and the difference as requirement "clocks", on which bounds rest, if it has none.
 scenario::Scenario with_clock_margin(scenario::Scenario scenario, const ClockMargin& margin);
 
 const json::Record& describe(json::Type<ClockMargin>);

@@ -93,9 +93,9 @@ std::string text_of(const std::string& name, const ScenarioSchedule& answer) {
   text += fmt::format("  judged: the checker finds nothing; {} frames simulated, none lost; {} of {} streams bounded\n", frames, bounded, answer.streams.size());
   if (answer.clock_margin) {
     const ClockMargin& clocks = *answer.clock_margin;
-    text += fmt::format("  margin {}: twice an error of {}, and {} that oscillators drift in a period and on the way\n", in_us(clocks.margin), in_us(clocks.error), in_us(clocks.on_the_way));
+    text += fmt::format("  margin {}: clocks on a way that differ by {}, and {} that oscillators drift in a period and on the way\n", in_us(clocks.margin), in_us(clocks.difference), in_us(clocks.on_the_way));
     text += fmt::format("    measured {} in {} runs from {} on, and {} that oscillators drift between looks; {}\n", in_us(clocks.measured), clocks.seeds, json::to_text(clocks.from), in_us(clocks.between_looks),
-                        clocks.required ? "required " + in_us(*clocks.required) : "the error is a requirement \"sync\" of the schedule");
+                        clocks.required ? "required " + in_us(*clocks.required) : "the difference is a requirement \"clocks\" of the schedule");
   }
   if (answer.placements > 1) text += fmt::format("  placed {}, the first of {} schedules that keeps what is required of streams\n", answer.placement, answer.placements);
   for (const StreamRequirement& each : answer.requirements) text += line_of(each);

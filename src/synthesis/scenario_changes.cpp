@@ -367,7 +367,7 @@ class Placing {
   Duration synchronised_from() const {
     if (!running_.clocks.gptp) return {};
     for (const scenario::Requirement& required : running_.require)
-      if (required.sync) return required.after.value_or(running_.warm_up);
+      if (required.sync || required.clocks) return required.after.value_or(running_.warm_up);
     return running_.warm_up;
   }
 

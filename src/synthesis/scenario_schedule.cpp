@@ -60,7 +60,7 @@ std::optional<Duration> synchronised_from(const ScenarioSchedule& answer) {
   if (answer.clock_margin) return answer.clock_margin->from;
   if (answer.resolved->plan.gptp.empty()) return std::nullopt;
   for (const scenario::Requirement& required : answer.resolved->scenario.require)
-    if (required.sync) return required.after.value_or(answer.resolved->scenario.warm_up);
+    if (required.sync || required.clocks) return required.after.value_or(answer.resolved->scenario.warm_up);
   return answer.resolved->scenario.warm_up;
 }
 

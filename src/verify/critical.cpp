@@ -107,7 +107,7 @@ std::vector<std::size_t> CriticalInstants::streams_of(const results::Requirement
     for (const scenario::ResolvedProgram& program : resolved_->programs)
       if (requirement.subject.empty() || program.name == requirement.subject)
         for (const scenario::ResolvedMember& each : program.participants()) found.push_back(each.state.value);
-  } else if (requirement.taken_as != Kind::sync) {
+  } else if (requirement.taken_as != Kind::sync && requirement.taken_as != Kind::clocks) {
     for (std::size_t s = 0; s < resolved_->plan.streams.size(); ++s)
       if (requirement.subject == "*" || resolved_->plan.streams[s].name == requirement.subject) found.push_back(s);
   }

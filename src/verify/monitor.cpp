@@ -16,12 +16,21 @@ constexpr std::size_t most_changes_in_a_cycle = 4;
 
 std::string with_seed(const results::RunResult& result) { return " in a run with seed " + std::to_string(result.seed); }
 
-void look_at_clocks(const scenario::Resolved& resolved, const results::RunResult& result, std::vector<Violation>& found) {
+void look_at_clocks(const scenario::Run& run, const results::RunResult& result, std::vector<Violation>& found) {
+  const scenario::Resolved& resolved = run.resolved();
   const analysis::ClockPremise premise = analysis::clock_premise(resolved, {});
   if (!premise.requirement) return;
+  for (std::size_t g = 0; g < run.clocks()->groups().size(); ++g) {
+    if (!run.clocks()->groups()[g].name.starts_with(scenario::clocks_on_ways)) continue;
+    const scenario::ClockDifferences& seen = run.clocks()->differences(g).from(premise.after);
+    if (seen.samples > 0 && seen.greatest > premise.difference())
+      found.push_back({Assumption::clock_difference, resolved.plan.nodes[seen.ahead.value].name + " is " + to_text(seen.greatest) + " ahead of " + resolved.plan.nodes[seen.behind.value].name + " at " +
+                                                         to_text(seen.at.since_start()) + with_seed(result)});
+  }
+  // Clocks that follow several grandmasters are as near to each other as they happen to be.
   for (const results::RequirementResult& each : result.requirements)
-    if (each.requirement == premise.requirement && each.verdict == results::Verdict::fail)
-      found.push_back({Assumption::clock_error, (each.measured ? to_text(*each.measured) : "no sample") + with_seed(result)});
+    if (each.requirement == premise.requirement && !result.partial && each.verdict != results::Verdict::pass)
+      found.push_back({Assumption::clock_difference, (each.measured ? to_text(*each.measured) : "no sample") + with_seed(result) + (each.remark.empty() ? "" : ": " + each.remark)});
 }
 
 /// In the whole run: invariants have no warm-up. What was lost before it is counted by copies.
@@ -81,7 +90,7 @@ std::string contradiction_of_requirements(const analysis::Bounds& bounds, const 
 
 std::vector<Violation> violations_in(const scenario::Run& run, const results::RunResult& result) {
   std::vector<Violation> found;
-  look_at_clocks(run.resolved(), result, found);
+  look_at_clocks(run, result, found);
   look_at_words(run, result, found);
   look_at_changes(run, result, found);
   return found;

@@ -52,7 +52,7 @@ TEST(Assessment, WhatBoundsRestOn) {
       {"", "", R"(, "os": {"transmit": "9us", "receive": "1us"})", {A::nothing_else}},
       {R"(, "faults": [{"kind": "crash", "node": "c", "at": "5ms"}])", "", "", {A::nothing_else, A::listed_faults_only}},
       {R"(, "clocks": {"all": {"offset": "10ppm"}})", "", "", {A::nothing_else, A::clock_rate}},
-      {R"(, "clocks": {"all": {"offset": "10ppm"}, "gptp": {}})", "", "", {A::nothing_else, A::clock_rate, A::clock_error, A::gptp_traffic, A::drained}},
+      {R"(, "clocks": {"all": {"offset": "10ppm"}, "gptp": {}})", "", "", {A::nothing_else, A::clock_rate, A::clock_difference, A::gptp_traffic, A::drained}},
       {"", R"(, "egress": [{"to": "b", )" + window + "}}]", "", {A::nothing_else}},
       {"", R"(, "egress": [{"to": "b", )" + window + R"(, "base_time": "7ms"}}])", "", {A::nothing_else, A::gates_in_force, A::drained}},
       {exchange + "}}}]", R"(, "egress": [{"to": "b", )" + window + "}}]", "", {A::nothing_else, A::gates_do_not_change, A::drained}},
@@ -117,9 +117,33 @@ TEST(Assessment, ThePremiseOnClocksIsTheWeakestRequirement) {
     EXPECT_EQ(premise.after, each.after) << each.require;
     EXPECT_EQ(premise.requirement, each.requirement) << each.require;
     const AssumptionLedger ledger = bound(*resolved).ledger;
-    EXPECT_EQ(ledger[A::clock_error].standing, Standing::open) << each.require;   // it is simulated, not bounded
-    EXPECT_EQ(ledger[A::clock_error].holds_from, each.after) << each.require;
+    EXPECT_EQ(ledger[A::clock_difference].standing, Standing::open) << each.require;   // it is simulated, not bounded
+    EXPECT_EQ(ledger[A::clock_difference].holds_from, each.after) << each.require;
   }
+}
+
+// A difference of two clocks is twice the error of each from the middle between them.
+TEST(Assessment, ThePremiseOnClocksMayBeADifference) {
+  const std::pair<const char*, std::optional<Duration>> cases[] = {
+      {R"({"clocks": "*", "within": "3us", "after": "10ms"})", 1'500_ns},
+      {R"({"clocks": ["a", "b", "c", "sw"], "within": "3us", "after": "10ms"})", 1'500_ns},
+      {R"({"clocks": ["a", "b"], "within": "3us", "after": "10ms"})", std::nullopt},   // of some nodes on ways nothing is said
+      {R"({"clocks": "*", "within": "3us", "after": "10ms"}, {"sync": "2us", "after": "20ms"})", 2_us},
+  };
+  for (const auto& [require, error] : cases) {
+    const ClockPremise premise = clock_premise(*synchronised(require), {});
+    EXPECT_EQ(premise.requirement.has_value(), error.has_value()) << require;
+    if (error) EXPECT_EQ(premise.error, *error) << require;
+    if (error) EXPECT_EQ(premise.after, 10_ms) << require;
+  }
+  EXPECT_EQ(bound(*synchronised(cases[0].first)).ledger[A::clock_difference].text, "clocks of the nodes on a way within 3us of each other from 10ms on");
+}
+
+TEST(Assessment, ClocksOfTwoGrandmastersOnAWayAreNoPremise) {
+  const auto ledger = [](const char* gptp) { return bound(*star(std::string(R"(, "clocks": {"all": {"offset": "10ppm"}, "gptp": )") + gptp + R"(}, "require": [{"sync": "1us"}])")).ledger; };
+  EXPECT_EQ(ledger(R"({"link_delay_threshold": "1ns"})")[A::clock_difference].standing, Standing::violated);
+  EXPECT_EQ(ledger(R"({})")[A::clock_difference].standing, Standing::open);
+  EXPECT_EQ(ledger(R"({"without": ["sw"]})")[A::clock_difference].standing, Standing::violated);   // a node between that hands nothing on
 }
 
 TEST(Assessment, WhatHoldsFromWhenOn) {

@@ -101,5 +101,16 @@ TEST(HeatMap, HasACellForEachPair) {
 
 TEST(Svg, EscapesWhatWouldEndAnElement) { EXPECT_EQ(escaped("<a b=\"c\">&'"), "&lt;a b=&quot;c&quot;&gt;&amp;&#39;"); }
 
+TEST(LineChart, MarksMomentsWithinItsAxisAndLeavesMarksOutWhereToldSo) {
+  LineChart chart;
+  chart.title = "offsets";
+  chart.series.push_back({"a", {{0, 1, {}, {}}, {10, 2, {}, {}}}, true, {}, false});
+  chart.moments = {{5, "gm lost"}, {50, "beyond"}};
+  const std::string text = draw(chart);
+  EXPECT_EQ(count(text, "gm lost"), 1u);
+  EXPECT_EQ(count(text, "beyond"), 0u);
+  EXPECT_EQ(count(text, "<circle"), 0u);
+}
+
 }  // namespace
 }  // namespace takt::chart

@@ -7,6 +7,7 @@
 //   wire       the wire checker finds nothing (scenarios whose clocks are ideal)
 //   frames     what was sent or copied was delivered, dropped, or is on its way; nothing leaks
 //   ways       the latency of every frame is explained: parts add up, and what they blame was on that wire; deliveries and losses are all there
+//   clocks     what passes of clocks is so at every look, whomever they follow; nothing passes that two grandmasters show; no gate keeps gPTP waiting for ever
 //   bound      no run exceeds a bound
 //   verify     contradicts neither itself nor a run, and its worst runs can be replayed
 #pragma once

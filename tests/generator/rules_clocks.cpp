@@ -80,7 +80,8 @@ std::span<const Rule> clock_rules() {
       {.key = "gptp.rate_ratio_window", .percent = 20, .words = "1 4 8"},
       {.key = "gptp.average_link_delay", .percent = 20, .words = "1 4"},
       {.key = "gptp.drift_window", .percent = 20, .words = "0 4 8"},
-      {.key = "gptp.link_delay_threshold", .percent = 15, .words = "800ns 5us 20us"},
+      // Beyond the least ones are all links, or some: then the network is in parts.
+      {.key = "gptp.link_delay_threshold", .percent = 25, .words = "1ns 40ns 800ns 5us 20us"},
       {.key = "gptp.nodes", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
          if (!m.wants(Feature::hot_standby) && m.draw.one_in(3)) return std::nullopt;
          return by_node(m, s, "gptp_node", 3);

@@ -205,7 +205,12 @@ std::span<const Rule> port_rules() {
        }},
       {.key = "gates.extension", .percent = 20, .words = "20us 100us 1ms"},
       {.key = "gates.entries", .make = entries_of_gates},
-      {.key = "gate_entry.open", .make = [](Maker& m, const Scope& s) -> Made { return numbers(s.number == 100 ? std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7} : m.classes(2)); }},
+      {.key = "gate_entry.open", .make = [](Maker& m, const Scope& s) -> Made {
+         if (s.number != 100) return numbers(m.classes(2));
+         std::vector<int> open = {0, 1, 2, 3, 4, 5, 6, 7};
+         if (m.wants(Feature::gptp) && m.draw.one_in(12)) open.pop_back();   // gPTP waits for ever, unless another entry opens its class
+         return numbers(open);
+       }},
       {.key = "gate_entry.for", .make = [](Maker& m, const Scope& s) -> Made {
          if (s.number == 100) return m.word(m.is_slow() ? "1300us" : "130us 125us 200us");
          return m.word("5us 10us 20us 50us 12360ns 123360ns 1ns");

@@ -43,6 +43,16 @@ bool filters(const Maker& m, const std::string& application) {
   return false;
 }
 
+/// All, or some.
+Made clocks(Maker& m, const Scope&) {
+  if (!m.wants(Feature::gptp) && !m.wants(Feature::oscillators)) return std::nullopt;
+  const std::vector<std::string> all = m.world.nodes();
+  if (all.size() < 2 || m.draw.one_in(3)) return text("*");
+  Node made = Node::array();
+  for (const std::string& name : m.draw.some(all, m.draw.between(2, std::min<std::size_t>(all.size(), 4)))) made.items.push_back(text(name));
+  return made;
+}
+
 Made signal(Maker& m, const Scope&) {
   std::vector<std::string> names;
   if (const Node* const applications = m.root().find("applications"))
@@ -81,11 +91,15 @@ std::span<const Rule> requirement_rules() {
        }},
       {.key = "requirement.stream", .percent = 70, .make = stream},
       {.key = "requirement.sync", .percent = 60, .make = [](Maker& m, const Scope&) -> Made { return m.wants(Feature::gptp) ? m.word("100ns 1us 100us 1s") : Made(); }},
+      {.key = "requirement.clocks", .percent = 40, .make = clocks},
       {.key = "requirement.application", .percent = 60, .make = application},
       {.key = "requirement.signal", .percent = 40, .make = signal},
       {.key = "requirement.figure", .percent = 15, .make = figure},
       {.key = "requirement.program", .percent = 60, .make = of_program},
-      {.key = "requirement.within", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.has("reaction") ? m.word("500us 2ms 5ms 1s") : Made(); }},
+      {.key = "requirement.within", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
+         if (s.has("clocks")) return m.word("100ns 1us 100us 1s");
+         return s.has("reaction") ? m.word("500us 2ms 5ms 1s") : Made();
+       }},
       {.key = "requirement.tree", .feature = Feature::nesting, .percent = 40, .make = [](Maker&, const Scope& s) -> Made { return s.text("program") == "p0" ? Made(Node::of_bool(true)) : std::nullopt; }},
       {.key = "requirement.latency", .percent = 70, .make = [](Maker& m, const Scope& s) -> Made {
          if (!s.has("stream")) return std::nullopt;
@@ -102,7 +116,7 @@ std::span<const Rule> requirement_rules() {
          return !has_other || m.draw.one_in(4) ? m.word("1 5 1000") : Made();
        }},
       {.key = "requirement.node", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return s.has("sync") ? Made(text(m.draw.any(m.world.nodes()))) : std::nullopt; }},
-      {.key = "requirement.after", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("sync") ? Made(text(std::to_string(m.duration_us / 2) + "us")) : std::nullopt; }},
+      {.key = "requirement.after", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("sync") || s.has("clocks") ? Made(text(std::to_string(m.duration_us / 2) + "us")) : std::nullopt; }},
       {.key = "requirement.thread", .percent = 25, .make = [](Maker&, const Scope& s) -> Made { return s.text("application").starts_with("a") ? Made(text("th0")) : std::nullopt; }},
       {.key = "requirement.success", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("application") ? m.word("50 90.5 100") : Made(); }},
       {.key = "requirement.buffered", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return s.has("application") && !filters(m, s.text("application")) ? m.word("10 80") : Made(); }},

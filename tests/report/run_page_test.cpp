@@ -145,5 +145,22 @@ TEST(RunPage, FailuresAreOnTop) {
   EXPECT_NE(made.page.find("<p class=\"verdict fail\">"), std::string::npos);
 }
 
+// h1 is lost at 20 s, and h4 leads a moment later: both are marked over the offsets of the clocks, whose greatest stands in the table with its instant.
+TEST(RunPage, ShowsOffsetsOfClocksOverTimeAndWhoLeads) {
+  const Made made = page_of("clocks/grandmaster-fail-over.json", {"/duration=25s", "require=[{\"sync\": \"1us\", \"after\": \"15s\"}]"});
+  expect_self_contained(made.page);
+  const auto curves = made.replay->clocks();
+  ASSERT_TRUE(curves);
+  ASSERT_EQ(curves->series.size(), 8u);
+  for (const chart::Series& series : curves->series) EXPECT_GT(series.samples.size(), 100u) << series.name;
+  ASSERT_EQ(curves->moments.size(), 3u);
+  EXPECT_EQ(curves->moments[1].text, "h1 lost");
+  EXPECT_DOUBLE_EQ(curves->moments[1].x, 20);
+  EXPECT_EQ(curves->moments[2].text, "h4 leads");
+  EXPECT_NE(made.page.find("Offsets from the grandmaster that most nodes follow"), std::string::npos);
+  EXPECT_NE(made.page.find("h4 leads"), std::string::npos);
+  EXPECT_EQ(made.page.find(">never<"), std::string::npos) << "a grandmaster is locked to nobody else";
+}
+
 }  // namespace
 }  // namespace takt::report

@@ -70,7 +70,7 @@ TEST(Assumptions, ClocksAreNotGoodFromTheStart) {
     EXPECT_FALSE(line.bound) << line.requirement.text;
     EXPECT_NE(line.verdict, Conclusion::pass) << line.requirement.text;
   }
-  EXPECT_EQ(found.ledger[Assumption::clock_error].holds_from, 5_s);
+  EXPECT_EQ(found.ledger[Assumption::clock_difference].holds_from, 5_s);
 }
 
 // Of two runs one loses a frame, and fails; the other takes longer. What was simulated is the longer.
@@ -95,12 +95,27 @@ TEST(Assumptions, WhatRestsOnARefutedPremiseIsUndecided) {
   const Verification found = verify(*finding("premise-refuted.json", {"/duration=6s"}), small());
   ASSERT_EQ(found.lines.size(), 3u);
   EXPECT_EQ(found.lines[2].verdict, Conclusion::refuted);
-  EXPECT_EQ(found.ledger[Assumption::clock_error].standing, Standing::violated);
+  EXPECT_EQ(found.ledger[Assumption::clock_difference].standing, Standing::violated);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(found.lines[i].verdict, Conclusion::undecided);
-    EXPECT_TRUE(found.lines[i].reason.starts_with("rests on \"clocks within 490ns from 5s on\", which is refuted: ")) << found.lines[i].reason;
+    EXPECT_TRUE(found.lines[i].reason.starts_with("rests on \"clocks of the nodes on a way within 980ns of each other from 5s on\", which is refuted: ")) << found.lines[i].reason;
   }
   EXPECT_EQ(found.verdict(), Conclusion::refuted);
+}
+
+// Both halves of the network are within nanoseconds of a grandmaster, each of its own, and a frame that misses its window waits for the next one.
+TEST(Assumptions, NothingIsProvedByClocksOfTwoGrandmasters) {
+  const auto resolved = finding("long-cable-gates.json", {"clocks.gptp.link_delay_threshold=800ns", "duration=13s"});
+  const analysis::Bounds bounds = analysis::bound(*resolved);
+  EXPECT_EQ(bounds.ledger[Assumption::clock_difference].standing, Standing::violated);
+  EXPECT_FALSE(bounds.streams[0].latency);
+  EXPECT_NE(bounds.streams[0].reason.find("no gPTP comes from a to b: the link from s1 to s2 shows a delay of 10us, beyond the threshold of 800ns"), std::string::npos) << bounds.streams[0].reason;
+  const Verification found = verify(*resolved, small());
+  EXPECT_FALSE(found.contradiction);
+  EXPECT_EQ(found.verdict(), Conclusion::refuted);
+  for (const Line& line : found.lines) EXPECT_FALSE(line.bound) << line.requirement.text;
+  // Over fibre there is one grandmaster, and a bound.
+  EXPECT_TRUE(analysis::bound(*finding("long-cable-gates.json")).streams[0].latency);
 }
 
 TEST(Assumptions, AreAssessedFromTheScenario) {

@@ -105,8 +105,21 @@ TEST(Monitor, ClocksThatAreWorseThanRequired) {
     return std::string(R"({"name": "clocks", "duration": "3s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
       "clocks": {"all": {"offset": "10ppm"}, "nodes": {"b": {"offset": "-10ppm"}}, "gptp": {}}, "require": [{"sync": ")") + limit + R"(", "after": "2s"}]})";
   };
-  EXPECT_EQ(Watched(clocks("1ms")).violated(Assumption::clock_error), "");
-  EXPECT_NE(Watched(clocks("1ps")).violated(Assumption::clock_error).find(" in a run with seed "), std::string::npos);
+  EXPECT_EQ(Watched(clocks("1ms")).violated(Assumption::clock_difference), "");
+  EXPECT_NE(Watched(clocks("1ps")).violated(Assumption::clock_difference).find(" in a run with seed "), std::string::npos);
+}
+
+// What bounds rest on is the difference of clocks on a way: 20 ppm apart, of which gPTP leaves some ns.
+TEST(Monitor, ClocksOnAWayThatDifferByMoreThanBoundsReckonWith) {
+  const auto clocks = [](const char* limit) {
+    return std::string(R"({"name": "clocks", "duration": "3s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
+      "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "1ms"}],
+      "clocks": {"all": {"offset": "10ppm"}, "nodes": {"b": {"offset": "-10ppm"}}, "gptp": {}}, "require": [{"clocks": "*", "within": ")") + limit + R"(", "after": "2s"}]})";
+  };
+  EXPECT_EQ(Watched(clocks("1ms")).violated(Assumption::clock_difference), "");
+  const std::string why = Watched(clocks("1ps")).violated(Assumption::clock_difference);
+  EXPECT_NE(why.find(" ahead of "), std::string::npos) << why;
+  EXPECT_NE(why.find(" in a run with seed "), std::string::npos) << why;
 }
 
 }  // namespace

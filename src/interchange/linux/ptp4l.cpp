@@ -9,6 +9,7 @@
 #include "interchange/linux/meaning.hpp"
 #include "json/quantity.hpp"
 #include "json/suggest.hpp"
+#include "scenario/resolve/gptp_links.hpp"
 
 namespace takt::interchange::linux_tc {
 namespace {
@@ -177,6 +178,13 @@ class Ptp4lReader {
   bool has_clock_ = false, never_grandmaster_ = false, receiver_only_ = false, is_gptp_ = false;
 };
 
+/// Where the scenario says none: that of copper, or where there is fibre, which has none, that which ptp4l has by default.
+Duration default_threshold(const scenario::Resolved& resolved) {
+  const scenario::Gptp& gptp = *resolved.scenario.clocks.gptp;
+  const bool has_fibre = std::ranges::any_of(resolved.plan.links, [&](const models::LinkPlan& link) { return !scenario::link_delay_threshold(gptp, link); });
+  return has_fibre ? Duration::from_ps(20'000'000'000) : Duration::from_ps(800'000);
+}
+
 }  // namespace
 
 void read_ptp4l(const InputFile& file, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) { Ptp4lReader(file, device, imported, diagnostics).run(); }
@@ -216,8 +224,9 @@ std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Dev
     add("logMinPdelayReqInterval", std::to_string(gptp.log_pdelay_interval));
     add("syncReceiptTimeout", std::to_string(gptp.sync_receipt_timeout));
     add("announceReceiptTimeout", std::to_string(gptp.announce_receipt_timeout));
-    if (gptp.link_delay_threshold.ps() % 1000 != 0) exported.lose("clock of " + device.name, "a link delay threshold that is no whole number of ns");
-    add("neighborPropDelayThresh", std::to_string(gptp.link_delay_threshold.ps() / 1000));
+    const Duration threshold = gptp.link_delay_threshold.value_or(default_threshold(resolved));
+    if (threshold.ps() % 1000 != 0) exported.lose("clock of " + device.name, "a link delay threshold that is no whole number of ns");
+    add("neighborPropDelayThresh", std::to_string(threshold.ps() / 1000));
     if (gptp.one_step) add("twoStepFlag", "0");
     add("time_stamping", gptp.one_step ? "onestep" : "hardware");
     add("clock_servo", "pi");

@@ -114,7 +114,7 @@ class GptpWriter {
     set.set("delay-mechanism", "p2p");
     set.set("log-min-pdelay-req-interval", std::to_string(gptp_.log_pdelay_interval));
     set.set("port-enable", "true");
-    set.set("mean-link-delay-thresh", std::to_string(time_interval(gptp_.link_delay_threshold)));
+    if (gptp_.link_delay_threshold) set.set("mean-link-delay-thresh", std::to_string(time_interval(*gptp_.link_delay_threshold)));   // otherwise that of the medium
     set.set("initial-log-announce-interval", std::to_string(gptp_.log_announce_interval));
     set.set("initial-log-sync-interval", std::to_string(gptp_.log_sync_interval));
     set.set("initial-log-pdelay-req-interval", std::to_string(gptp_.log_pdelay_interval));

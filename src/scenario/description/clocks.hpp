@@ -158,7 +158,7 @@ struct Gptp {
   std::uint16_t rate_ratio_window = 8;
   std::uint16_t average_link_delay = 1;
   std::uint16_t drift_window = 0;
-  sim::Duration link_delay_threshold = sim::Duration::from_ps(800'000);
+  std::optional<sim::Duration> link_delay_threshold = {};   ///< that of the medium
   ServoSettings servo;
   json::NameMap<GptpNode> nodes;
   std::vector<GptpDomain> domains;

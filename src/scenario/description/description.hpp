@@ -394,6 +394,7 @@ struct Requirement {
   std::optional<std::uint64_t> delivered;
   std::optional<Duration> sync;
   std::optional<std::string> node;
+  std::optional<Names> clocks = {};      ///< "*": all nodes
   std::optional<std::string> application = {};
   std::optional<std::string> thread = {};
   std::optional<double> success = {};    ///< percent

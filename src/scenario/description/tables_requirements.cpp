@@ -67,15 +67,16 @@ const json::Object& describe(json::Type<Requirement>) {
       optional<&Requirement::reaction>("reaction", "Every such reaction ends within the time given by within, and there is at least one."),
       optional<&Requirement::program>("program", "Only of this program."),
       optional<&Requirement::cause>("cause", "Only what this has caused; whatever the cause if absent."),
-      optional<&Requirement::within>("within", "Longest reaction, from the instant of its cause until all living participants are there; how far a figure may be from equal, a number in its unit or a duration (0 if absent)."),
+      optional<&Requirement::within>("within", "Longest reaction, from the instant of its cause until all living participants are there; greatest difference of clocks; how far a figure may be from equal, a number in its unit or a duration (0 if absent)."),
       optional<&Requirement::tree>("tree", "The reaction of the program and all that are nested in it: until everybody in the tree is there."),
       optional<&Requirement::stream>("stream", "The stream that is meant."),
       optional<&Requirement::latency>("latency", "Longest time from production to delivery. A frame that is lost, or that is under way for longer at the end, breaks it; losses do not if dropped or delivered says how many there may be."),
       optional<&Requirement::jitter>("jitter", "Largest difference between two latencies; lost frames count as for latency."),
       optional<&Requirement::dropped>("dropped", "Most frames that may be lost. Of a redundant stream a frame is lost if none of its copies arrives."),
       optional<&Requirement::delivered>("delivered", "Fewest frames that must be delivered."),
-      optional<&Requirement::sync>("sync", "Greatest difference between a node's clock and that of its grandmaster, either way.", {.max = longest}),
-      optional<&Requirement::node>("node", "Only of this node; of all if absent."),
+      optional<&Requirement::sync>("sync", "Greatest difference between a node's clock and that of the grandmaster, either way; all nodes with gPTP follow one grandmaster.", {.max = longest}),
+      optional<&Requirement::node>("node", "Only of this node; of all with gPTP if absent."),
+      optional<&Requirement::clocks>("clocks", "Nodes, any two of whose clocks differ by at most within, whomever they follow; \"*\": all nodes."),
       optional<&Requirement::application>("application", "The application or gateway that is meant."),
       optional<&Requirement::thread>("thread", "One of its threads; each of them that the limit concerns if absent."),
       optional<&Requirement::success>("success", "Least share of the expected calls that took place (criterion 1), in percent.", {.min = 0, .max = 100}),
@@ -92,7 +93,7 @@ const json::Object& describe(json::Type<Requirement>) {
       optional<&Requirement::equal>("equal", "What it must be, within within."),
       optional<&Requirement::after>("after", "What begins at this instant or later counts; the scenario's warm_up if absent.", {.max = longest}),
   };
-  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync", "application", "signal", "figure"};
+  static constexpr std::string_view subjects[] = {"reaction", "stream", "sync", "clocks", "application", "signal", "figure"};
   static constexpr std::string_view bounds[] = {"at_most", "at_least", "equal"};
   static constexpr json::Group groups[] = {json::exactly_one_of(subjects), json::at_most_one_of(bounds)};
   static constexpr json::Object table = json::object<Requirement>("requirement", "What the run must show.", fields, {.groups = groups});

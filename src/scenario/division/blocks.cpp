@@ -2,27 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "scenario/run/clock_monitor.hpp"
+#include "scenario/topology/node_sets.hpp"
 
 namespace takt::scenario {
 namespace {
 
 constexpr double most_octets_of_looks = 1e9;
-
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t of) {
-    while (parent_[of] != of) of = parent_[of] = parent_[parent_[of]];
-    return of;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) { parent_[std::max(root(a), root(b))] = std::min(root(a), root(b)); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 const models::PortConfig& config_of(const models::NetworkPlan& plan, const models::LinkPlan::End& end) {
   return plan.port_configs[end.port_config.value_or(plan.nodes[end.node.value].port_config)];
@@ -42,7 +29,7 @@ std::vector<std::uint32_t> watched_nodes(const Resolved& resolved) {
 Blocks blocks_of(const Resolved& resolved) {
   const models::NetworkPlan& plan = resolved.plan;
   const std::size_t nodes = plan.nodes.size();
-  Sets sets(nodes);
+  NodeSets sets(nodes);
   std::vector<std::uint32_t> cables(nodes, 0);
   std::vector<bool> cuts_through(nodes, false);
   for (const models::LinkPlan& link : plan.links)
@@ -72,10 +59,11 @@ Blocks blocks_of(const Resolved& resolved) {
 }
 
 std::string why_whole(const Resolved& resolved) {
-  if (!resolved.scenario.clocks.gptp) return {};
-  // What grandmasters and slaves in different parts have shown is put together at the end.
-  const auto nodes = static_cast<double>(std::ranges::count_if(resolved.plan.gptp, [](const auto& station) { return station.has_value(); }));
-  const double looks = static_cast<double>(resolved.scenario.duration.ps()) / static_cast<double>(resolved.scenario.clocks.gptp->report_every.ps());
+  const std::optional<Duration> every = look_every(resolved);
+  if (!every) return {};
+  // What clocks in different parts have shown is put together at the end.
+  const auto nodes = static_cast<double>(resolved.plan.nodes.size());
+  const double looks = static_cast<double>(resolved.scenario.duration.ps()) / static_cast<double>(every->ps());
   if (const double octets = nodes * looks * static_cast<double>(ClockMonitor::octets_of_a_look); octets > most_octets_of_looks)
     return "looks at its clocks would take " + std::to_string(std::llround(octets / 1e6)) + " MB until they are put together: \"report_every\" is short for so long a run";
   return {};

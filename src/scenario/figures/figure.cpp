@@ -29,6 +29,7 @@ constexpr ShortForm short_forms[] = {
     {"violations", "/programs/*/violations/*/at_ps", Take::count}, {"events", "/events", Take::max},
     {"verdict", "/verdict", Take::max},             {"utilisation", "/ports/*/utilisation", Take::max},
     {"queue", "/ports/*/queue_peak", Take::max},    {"sync", "/clocks/*/offset/abs_max_ps", Take::max},
+    {"clocks", "/clock_differences/all/greatest_ps", Take::max},
 };
 constexpr std::string_view reaction_kinds[] = {"start", "halt", "suspend", "resume", "reset"};
 constexpr std::string_view latency_figures[] = {"max", "p99", "p50", "mean", "min", "stddev"};

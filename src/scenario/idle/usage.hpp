@@ -91,6 +91,7 @@ void tell_idle_streams(const Usage& usage, json::Diagnostics& diagnostics);
 void tell_idle_faults(const Usage& usage, json::Diagnostics& diagnostics);
 void tell_idle_script(const Usage& usage, json::Diagnostics& diagnostics);
 void tell_idle_clocks(const Usage& usage, json::Diagnostics& diagnostics);
+void tell_incapable_links(const Usage& usage, json::Diagnostics& diagnostics);
 void tell_idle_cpus(const Usage& usage, json::Diagnostics& diagnostics);
 void tell_idle_requirements(const Usage& usage, json::Diagnostics& diagnostics);
 

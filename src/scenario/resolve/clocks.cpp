@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "scenario/resolve/gptp_links.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 
 namespace takt::scenario {
@@ -132,6 +133,10 @@ class ClockResolver {
     for (const IntervalRequest& request : gptp.interval_requests) check_request(request, numbers, without);
     if (diagnostics_.has_errors()) return;
     made_.gptp.resize(r_.plan.nodes.size());
+    without_threshold_.resize(r_.plan.nodes.size());
+    for (const models::LinkPlan& link : r_.plan.links)
+      for (const models::LinkPlan::End* const end : {&link.a, &link.b})
+        if (!link_delay_threshold(gptp, link)) without_threshold_[end->node.value].push_back(end->port);
     std::vector<Instance> instances{{0, by_name(gptp.nodes)}};
     for (const GptpDomain& domain : gptp.domains) instances.push_back({domain.domain, by_name(domain.nodes)});
     for (std::uint32_t n = 0; n < r_.plan.nodes.size(); ++n) {
@@ -209,7 +214,8 @@ class ClockResolver {
     plan.link.neighbor_rate_ratio_window = gptp.rate_ratio_window;
     plan.link.compensate_drift = gptp.drift_window > 0 || gptp.drift_tracking;
     plan.link.average_over = gptp.average_link_delay;
-    plan.link.mean_link_delay_thresh = gptp.link_delay_threshold;
+    plan.link.mean_link_delay_thresh = gptp.link_delay_threshold ? gptp.link_delay_threshold : models::gptp::LinkDelayConfig{}.mean_link_delay_thresh;
+    plan.ports_without_threshold = without_threshold_[n];
     models::ServoConfig& servo = plan.target.servo;
     servo.kind = gptp.servo.algorithm == ServoAlgorithm::pi ? models::ServoKind::pi : models::ServoKind::drift_tracking;
     servo.log_sync_interval = gptp.log_sync_interval;
@@ -273,6 +279,7 @@ class ClockResolver {
 
   const Resolved& r_;
   ClockPlans made_;
+  std::vector<std::vector<std::uint16_t>> without_threshold_;   // ports, by node
   const Clocks& clocks_;
   json::Diagnostics& diagnostics_;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "scenario/figures/known_figures.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/resolve/known_names.hpp"
+#include "scenario/run/clock_groups.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -120,6 +122,23 @@ class Requirements {
     if (asked_->node && !r_.topology.find(*asked_->node)) report_unknown_node(r_.topology, *asked_->node, at("node"), "the name of a node", diagnostics_);
     RequiredFigure& made = add_time(RequirementKind::sync, asked_->node.value_or(""), {"clocks", asked_->node.value_or("*"), "offset", "abs_max_ps"}, *asked_->sync, "");
     made.text = fmt::format("clock{} within {} of the grandmaster after {}", asked_->node ? " of " + *asked_->node : "s", json::to_text(*asked_->sync), json::to_text(made.from));
+  }
+
+  void clocks() {
+    const Names& clocks = *asked_->clocks;
+    const bool are_all = clocks.names.size() == 1 && clocks.names.front() == "*";
+    if (asked_->within && !asked_->within->time) error("within", "a time without a unit", {"a number", "a duration such as \"1us\""});
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < clocks.names.size() && !are_all; ++i) {
+      const json::Place place = clocks.names.size() == 1 ? at("clocks") : asked_->where.at("clocks", i);
+      if (!r_.topology.find(clocks.names[i])) report_unknown_node(r_.topology, clocks.names[i], place, "the name of a node", diagnostics_);
+      else if (!seen.insert(clocks.names[i]).second) diagnostics_.error(place, "a node twice", {json::quote(clocks.names[i]), "each node once"});
+    }
+    if (!are_all && clocks.names.size() == 1) error("clocks", "a difference of one clock", {json::quote(clocks.names.front()), "two nodes or more, or \"*\""});
+    if (!asked_->within) return;
+    const std::string name = clock_group_name(clocks);
+    add_time(RequirementKind::clocks, name, {"clock_differences", name, "greatest_ps"}, *asked_->within,
+             fmt::format("{} within {} of each other", are_all ? "all clocks" : "clocks of " + name, json::to_text(Duration(*asked_->within))));
   }
 
   void application() {
@@ -251,6 +270,7 @@ const std::vector<Requirements::Spelling>& Requirements::spellings() {
       {"reaction", {"within"}, {"program", "cause", "tree"}, &Requirements::reaction},
       {"stream", {"latency", "jitter", "dropped", "delivered"}, {}, &Requirements::stream},
       {"sync", {}, {"node"}, &Requirements::sync},
+      {"clocks", {"within"}, {}, &Requirements::clocks},
       {"application", {"success", "buffered"}, {"thread"}, &Requirements::application},
       {"signal", {"irregular"}, {}, &Requirements::signal},
       {"figure", {"at_most", "at_least", "equal"}, {"only", "take", "unit", "within"}, &Requirements::figure},

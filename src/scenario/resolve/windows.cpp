@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/resolve/gptp_links.hpp"
 #include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/stream_at_port.hpp"
 #include "scenario/topology/port_table.hpp"
@@ -59,6 +60,25 @@ bool is_of_cqf(const Resolved& r, const StreamAtPort& at) {
   return !gate.is_none() && ingress.stream_gates[gate.value].name == "cqf";
 }
 
+/// Clocks behind a gate that never opens for gPTP run free.
+void check_gptp(const Resolved& r, const PortTable<PortGates>& ports, json::Diagnostics& diagnostics) {
+  if (r.plan.gptp.empty() || !r.scenario.clocks.gptp) return;
+  const std::vector<GptpFrames> frames = longest_gptp_frames(r);
+  std::set<std::uint32_t> told;
+  for (const models::LinkPlan& link : r.plan.links)
+    for (const auto& [own, peer] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
+      const PortGates& port = ports.at(own->node.value, own->port);
+      if (!r.plan.gptp[own->node.value] || !r.plan.gptp[peer->node.value] || port.is_open_without_list || !port.has_list) continue;
+      const models::TrafficClass q = port_config_of(r.plan, *own).traffic_class_of_priority[priority_of_gptp];
+      const Duration needed = link.rate.octet_time() * (models::preamble_and_sfd + frames[own->node.value].to(frames[peer->node.value])).count;
+      if (models::contains(port.stuck_open, q) || port.longest_window[q] >= needed || !told.insert(own->node.value).second) continue;
+      diagnostics.error(r.scenario.clocks.gptp->where.place(), "gPTP that no gate window lets pass",
+                        {json::to_text(needed) + " for a frame of class " + std::to_string(q) + " from " + json::quote(r.topology.nodes[own->node.value].name) + " to " + json::quote(r.topology.nodes[peer->node.value].name) +
+                             ", whose longest window there is " + json::to_text(port.longest_window[q]),
+                         "a window that holds its longest frame, or the node in \"without\""});
+    }
+}
+
 }  // namespace
 
 void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
@@ -87,6 +107,7 @@ void check_windows(const Resolved& r, json::Diagnostics& diagnostics) {
     if (shut == at.classes) diagnostics.error(stream.where.place(), "a frame that no gate window lets pass", details);
     else diagnostics.warning(stream.where.place(), "frames that no gate window lets pass, when their stream gate puts them into that class", details);
   });
+  check_gptp(r, ports, diagnostics);
 }
 
 }  // namespace takt::scenario

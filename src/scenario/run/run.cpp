@@ -119,8 +119,9 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle, models::Share shar
   application_monitor_ = std::make_unique<ApplicationMonitor>(simulation_, resolved.signals, instants_);
   for (std::uint32_t i = 0; i < resolved.applications.size(); ++i) add_application(i, resolved.applications[i]);
   script_ = std::make_unique<Script>(*this, simulation_, share.part == 0);
-  if (resolved.scenario.clocks.gptp) {
-    clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, resolved.scenario.clocks.gptp->report_every, instants_);
+  if (const std::optional<Duration> every = look_every(resolved)) {
+    const std::optional<Gptp>& gptp = resolved.scenario.clocks.gptp;
+    clock_monitor_ = std::make_unique<ClockMonitor>(simulation_, network_, ClockMonitor::Settings{*every, clock_groups(resolved), gptp ? election_time(*gptp) : Duration()}, instants_);
     clock_monitor_->start();
   }
   for (std::uint32_t n = 0; n < resolved.plan.nodes.size(); ++n) {

@@ -48,7 +48,7 @@ class Run {
       if (other->network_.has(node)) return other->cpu_monitors_[node.value].get();
     return cpu_monitors_[node.value].get();
   }
-  /// Null without gPTP.
+  /// Null where nobody looks at clocks: see look_every().
   const ClockMonitor* clocks() const { return clock_monitor_.get(); }
   /// Takes the series of clock offsets from now on. Precondition: there is gPTP.
   void set_clock_sink(ClockSampleSink* sink) { clock_monitor_->set_sink(sink); }

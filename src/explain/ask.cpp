@@ -10,35 +10,31 @@ namespace {
 
 /// False if it was interrupted.
 bool run_to_the_end(scenario::Run& run, const Interrupted& interrupted) {
-  constexpr std::uint64_t events_a_slice = 500'000;
+  constexpr std::uint64_t events_a_slice = 100'000;
   while (!run.advance(events_a_slice))
     if (interrupted && interrupted()) return false;
   return true;
 }
 
+/// Follows one frame to the ends that are asked for.
 class FrameSeeker final : public WaySink {
  public:
-  FrameSeeker(const models::Network& network, const FrameQuestion& question) : network_(&network), question_(question) {}
+  /// `delivery`: that end alone. `all_losses`: of each copy, else the first.
+  FrameSeeker(const models::Network& network, const FrameName& frame, FrameQuestion::Which which, std::optional<Delivery> delivery, bool all_losses)
+      : network_(&network), frame_(frame), which_(which), delivery_(delivery), all_losses_(all_losses) {}
 
-  bool wants(models::StreamIndex stream) const override { return !question_.stream || *question_.stream == stream; }
-  bool wants_frame(const models::Frame& frame) override {
-    return frame.produced >= question_.from && (question_.which != FrameQuestion::Which::number || frame.sequence == question_.number);
+  bool wants(models::StreamIndex stream) const override { return stream == frame_.stream; }
+  bool wants_frame(const models::Frame& frame) override { return frame.sequence == frame_.sequence; }
+  bool wants_delivery(const models::Frame& frame, models::NodeIndex listener, TrueTime now) override {
+    if (which_ == FrameQuestion::Which::number) return true;
+    return delivery_ && found.empty() && listener == delivery_->listener && now - frame.produced == delivery_->latency;
   }
-  bool wants_delivery(const models::Frame& frame, models::NodeIndex, TrueTime now) override {
-    if (frame.produced < question_.from || question_.which == FrameQuestion::Which::lost) return false;
-    if (question_.which == FrameQuestion::Which::number) return frame.sequence == question_.number;
-    if (slowest_ && now - frame.produced <= *slowest_) return false;
-    slowest_ = now - frame.produced;
-    found.clear();
-    return true;
-  }
-  bool wants_loss(const models::Frame& frame, models::DropReason reason) override {
-    if (frame.produced < question_.from || question_.which == FrameQuestion::Which::slowest) return false;
-    if (question_.which == FrameQuestion::Which::number) return frame.sequence == question_.number;
-    return found.empty() && reason != models::DropReason::duplicate;
+  bool wants_loss(const models::Frame&, models::DropReason reason) override {
+    if (which_ == FrameQuestion::Which::number) return true;
+    return which_ == FrameQuestion::Which::lost && reason != models::DropReason::duplicate && (all_losses_ || found.empty());
   }
   void ended(const Way& way) override {
-    if (way.end == Way::End::under_way && (question_.which != FrameQuestion::Which::number || way.frame.sequence != question_.number)) return;
+    if (way.end == Way::End::under_way && which_ != FrameQuestion::Which::number) return;
     found.push_back(explained(*network_, way));
   }
 
@@ -46,8 +42,10 @@ class FrameSeeker final : public WaySink {
 
  private:
   const models::Network* network_;
-  FrameQuestion question_;
-  std::optional<Duration> slowest_;
+  FrameName frame_;
+  FrameQuestion::Which which_;
+  std::optional<Delivery> delivery_;
+  bool all_losses_;
 };
 
 /// All arrivals of words, in the order of time.
@@ -119,8 +117,20 @@ std::optional<models::StreamIndex> stream_named(const scenario::Resolved& resolv
 }
 
 std::vector<ExplainedFrame> explain_frame(const scenario::Resolved& resolved, const FrameQuestion& question, const Interrupted& interrupted) {
+  std::optional<FrameName> frame;
+  FoundFrames found;
+  if (question.which == FrameQuestion::Which::number) {
+    frame = {*question.stream, question.number};
+  } else {
+    const std::optional<FoundFrames> all = find_frames(resolved, question, interrupted);
+    if (!all) return {};
+    found = *all;
+    if (question.which == FrameQuestion::Which::lost) frame = found.lost;
+    else if (found.slowest) frame = found.slowest->frame;
+  }
+  if (!frame) return {};
   scenario::Run run(resolved);
-  FrameSeeker seeker(run.network(), question);
+  FrameSeeker seeker(run.network(), *frame, question.which, found.slowest, found.lost_has_copies);
   WayRecorder recorder(run.network(), seeker);
   run.explain_to(&recorder);
   if (!run_to_the_end(run, interrupted)) return {};

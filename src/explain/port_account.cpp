@@ -74,12 +74,26 @@ void PortAccount::forget(TrueTime now) {
   decisions_.erase(decisions_.begin(), decisions_.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
+/// Two decisions from then or before are kept: that in force then, and the last start up to it. Each one is looked at
+/// and erased once, near the front.
+void PortAccount::forget_before(TrueTime earliest) {
+  const auto is_past = [&](std::size_t number) { return number < decisions_.size() && decisions_[number].at <= earliest; };
+  while (is_past(1)) {
+    if (decisions_[1].starts || !decisions_.front().starts)
+      decisions_.pop_front();
+    else if (is_past(2))
+      decisions_.erase(decisions_.begin() + 1);
+    else
+      return;
+  }
+}
+
 void PortAccount::explain(const Waiting& waiting, std::vector<Part>& parts) const {
   // The decision that is in force when it begins to wait: one of that very instant counts.
   auto next = std::upper_bound(decisions_.begin(), decisions_.end(), waiting.from, [](TrueTime time, const Decision& decision) { return time < decision.at; });
   const Decision* on_medium = nullptr;
-  for (auto d = decisions_.begin(); d != next; ++d)
-    if (d->starts) on_medium = &*d;
+  for (auto d = next; on_medium == nullptr && d != decisions_.begin();)
+    if (--d; d->starts) on_medium = &*d;
   const auto is_ours = [&](const std::pair<models::Refusal, TrueTime>& told) { return told.first.traffic_class == waiting.traffic_class && told.first.of_rest == waiting.is_rest; };
   TrueTime at = waiting.from;
   while (at < waiting.until) {
@@ -97,7 +111,8 @@ void PortAccount::explain(const Waiting& waiting, std::vector<Part>& parts) cons
     if (at < end) {
       TAKT_CHECK(on_medium != nullptr && on_medium->free_at >= end, "a frame waits for the medium only while another one has it");
       const models::TrafficClass q = on_medium->traffic_class;
-      // An express frame, or a class that shares bandwidth, may go before a higher class; the rest of a frame that was cut was on the medium before.
+      // An express frame, or a class that shares bandwidth, may go before a higher class; the rest of a frame that was
+      // cut was on the medium before.
       const bool might_start = on_medium->at >= waiting.from && !on_medium->is_rest && std::ranges::none_of(on_medium->refusals, is_ours);
       const Cause cause = q > waiting.traffic_class ? Cause::higher_class : q == waiting.traffic_class ? Cause::own_class : might_start ? Cause::precedence : Cause::lower_class;
       append(parts, {cause, at, end - at, on_medium->frame});

@@ -18,6 +18,8 @@ class PortAccount {
   void refused(TrueTime now, TrueTime until, const models::Refusal& refusal);
   /// Nobody waits who asks: only what is on the medium, and what is said at this instant, counts from here on.
   void forget(TrueTime now);
+  /// Whoever waits has waited since then, or less: what was decided before it and is over does not count any more.
+  void forget_before(TrueTime earliest);
 
   struct Waiting {
     TrueTime from;

@@ -73,11 +73,11 @@ void WayRecorder::record(const sim::TraceRecord& record) {
         const std::uint32_t position = directory_.find(record.where);
         Visit& made = visit(*copy, position, record.time);
         made.hop.traffic_class = static_cast<models::TrafficClass>(record.detail);
-        wait_at(position, made);
+        wait_at(position, made, record.time);
       }
       return;
     case Occurrence::refused:
-      if (const std::uint32_t position = directory_.find(record.where); waiting_[position] == 0) accounts_[position].forget(record.time);
+      if (const std::uint32_t position = directory_.find(record.where); waiting_[position].empty()) accounts_[position].forget(record.time);
       accounts_[directory_.find(record.where)].refused(record.time, TrueTime::from_ps(static_cast<std::int64_t>(record.what)), models::Refusal::unpack(record.detail));
       return;
     default: return;
@@ -189,16 +189,20 @@ bool WayRecorder::is_shaped_at_talker(models::StreamIndex stream) const {
   return std::ranges::find(shaped, stream, &models::TalkerAtsPlan::stream) != shaped.end();
 }
 
-void WayRecorder::wait_at(std::uint32_t position, Visit& visit) {
+void WayRecorder::wait_at(std::uint32_t position, Visit& visit, TrueTime since) {
   if (visit.is_waiting) return;
   visit.is_waiting = true;
-  ++waiting_[position];
+  visit.waits_since = since;
+  waiting_[position].insert(since);
 }
 
 void WayRecorder::waits_no_more(std::uint32_t position, Visit& visit, TrueTime now) {
   if (!visit.is_waiting) return;
   visit.is_waiting = false;
-  if (--waiting_[position] == 0) accounts_[position].forget(now);
+  std::multiset<TrueTime>& waiting = waiting_[position];
+  waiting.erase(waiting.find(visit.waits_since));
+  if (waiting.empty()) accounts_[position].forget(now);
+  else accounts_[position].forget_before(*waiting.begin());
 }
 
 void WayRecorder::explain_wait(Visit& visit, TrueTime from, TrueTime until, bool is_rest) {
@@ -220,7 +224,7 @@ void WayRecorder::started(const sim::TraceRecord& record) {
     here.node_delay = view_.node_delay(here.hop.port.node, here.hop.port.port);
     here.cable = view_.delay(here.hop.port.node, here.hop.port.port) - here.node_delay;
   }
-  if (waiting_[position] == 0) accounts_[position].forget(record.time);
+  if (waiting_[position].empty()) accounts_[position].forget(record.time);
   accounts_[position].started(record.time, record.time + octet_time * models::wire_length(models::Octets{detail.octets}).count, {frame.stream, frame.sequence}, detail.traffic_class, false);
 }
 
@@ -238,7 +242,7 @@ void WayRecorder::cut(const sim::TraceRecord& record) {
     here.hop.parts.push_back({Cause::preemption, here.last_start + sent, lost});
     here.last_free = here.last_start + sent + lost;
     ++here.hop.cuts;
-    wait_at(position, here);
+    wait_at(position, here, here.last_free);
   }
   accounts_[position].cut(octet_time * (models::preamble_and_sfd.count + data + models::mcrc.count + models::inter_packet_gap.count));
 }
@@ -254,7 +258,7 @@ void WayRecorder::resumed(const sim::TraceRecord& record) {
     here.last_start = record.time;
     here.left = detail.octets;
   }
-  if (waiting_[position] == 0) accounts_[position].forget(record.time);
+  if (waiting_[position].empty()) accounts_[position].forget(record.time);
   const Duration length = directory_.ports()[position].octet_time * models::wire_length(models::Octets{detail.octets}).count;
   accounts_[position].started(record.time, record.time + length, {frame.stream, frame.sequence}, detail.traffic_class, true);
 }

@@ -2,6 +2,7 @@
 // what a port was used for only while somebody whom it follows waits there.
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "explain/port_account.hpp"
@@ -65,6 +66,7 @@ class WayRecorder final : public sim::TraceSink {
     bool has_header_come = false;     // before the whole frame
     bool has_launch_time = false;     ///< what is not eligible waits for it: else an ATS scheduler holds it
     bool is_waiting = false;          // it, or its rest
+    TrueTime waits_since;             // if so
     bool is_told = false;             // in the way of another copy
     bool is_over = false;             // its frame has ended behind it
   };
@@ -101,7 +103,7 @@ class WayRecorder final : public sim::TraceSink {
   static Place* place_at(Copy& copy, models::NodeIndex node);
   static std::uint32_t visit_at(const Copy& copy, std::uint32_t position);
   Visit& visit(Copy& copy, std::uint32_t position, TrueTime now);
-  void wait_at(std::uint32_t position, Visit& visit);
+  void wait_at(std::uint32_t position, Visit& visit, TrueTime since);
   void waits_no_more(std::uint32_t position, Visit& visit, TrueTime now);
   void explain_wait(Visit& visit, TrueTime from, TrueTime until, bool is_rest);
 
@@ -131,7 +133,7 @@ class WayRecorder final : public sim::TraceSink {
   std::vector<std::uint32_t> node_of_component_;
   std::vector<bool> wanted_;               // by stream
   std::vector<PortAccount> accounts_;      // by port
-  std::vector<std::uint32_t> waiting_;     // by port: how many whom we follow
+  std::vector<std::multiset<TrueTime>> waiting_;   // by port: since when those wait whom we follow
   std::vector<Copy> copies_;               // by record
   std::vector<Journey> journeys_;
   std::vector<std::uint32_t> free_journeys_;

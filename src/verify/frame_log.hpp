@@ -1,11 +1,11 @@
-// What a replayed run shows of some streams: the way of their slowest frames, and each message that came.
+// What a replayed run shows: the ports that one frame has passed, and each message of some streams that came.
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
+#include "explain/frame_finder.hpp"
 #include "explain/reaction_chain.hpp"
 #include "scenario/run/run.hpp"
 #include "sim/trace.hpp"
@@ -25,15 +25,14 @@ using explain::Arrival;
 
 class FrameLog final : public sim::TraceSink {
  public:
-  /// The ways of frames of `stream` are kept, and the slowest and the fastest of those that are produced at `from` or later; of all streams in
-  /// `messages` each arrival. The network outlives the log.
-  FrameLog(const models::Network& network, std::optional<models::StreamIndex> stream, sim::TrueTime from, std::vector<bool> messages);
+  /// The way of the frame of `delivery` to its listener is kept; of all streams in `messages` each arrival. The network outlives the log.
+  FrameLog(const models::Network& network, std::optional<explain::Delivery> delivery, std::vector<bool> messages);
 
   void record(const sim::TraceRecord& record) override;
 
-  const std::optional<Arrival>& slowest() const { return slowest_; }
-  const std::optional<Arrival>& fastest() const { return fastest_; }
-  /// The ports that the slowest frame has passed, from its talker on.
+  /// The delivery, once it has taken place.
+  const std::optional<Arrival>& delivered() const { return delivered_; }
+  /// The ports that its frame has passed, from its talker on.
   const std::vector<Passage>& way() const { return way_; }
   /// In the order of time.
   const std::vector<Arrival>& arrivals() const { return arrivals_; }
@@ -46,18 +45,15 @@ class FrameLog final : public sim::TraceSink {
     sim::Duration octet_time;
   };
   const Port* port_of(sim::ComponentId component) const;
-  void note_passage(const sim::TraceRecord& record, const Port& port, const models::Frame& frame);
-  void note_arrival(const Arrival& arrival, std::uint64_t sequence);
-  std::vector<Passage> way_to(const Arrival& arrival, std::uint64_t sequence) const;
+  void note_passage(const sim::TraceRecord& record, const Port& port);
+  std::vector<Passage> way_to(const Arrival& arrival) const;
 
   const models::Network* network_;
   std::vector<std::optional<Port>> ports_;                   // by component
-  std::optional<models::StreamIndex> stream_;
-  sim::TrueTime from_;
+  std::optional<explain::Delivery> delivery_;
   std::vector<bool> messages_;                               // by stream
-  std::map<std::uint64_t, std::vector<Passage>> passages_;   // of the stream, by sequence number
-  std::optional<Arrival> slowest_;
-  std::optional<Arrival> fastest_;
+  std::vector<Passage> passages_;                            // of the frame
+  std::optional<Arrival> delivered_;
   std::vector<Passage> way_;
   std::vector<Arrival> arrivals_;
 };

@@ -44,7 +44,7 @@ class LatencyParts {
 
   /// Nothing where one of the ports has no bound of its own, for then they say nothing.
   std::vector<SlackPart> make() {
-    const Arrival& slowest = *log_.slowest();
+    const Arrival& slowest = *log_.delivered();
     Duration bound_so_far;
     sim::TrueTime run_so_far = slowest.produced;
     const auto add = [&](std::string where, std::string what, Duration bound, sim::TrueTime run) {
@@ -79,7 +79,7 @@ class LatencyParts {
   }
   std::size_t listener() const {
     const std::vector<models::NodeIndex>& listeners = plan_.streams[stream_.index.value].listeners;
-    return static_cast<std::size_t>(std::find(listeners.begin(), listeners.end(), log_.slowest()->listener) - listeners.begin());
+    return static_cast<std::size_t>(std::find(listeners.begin(), listeners.end(), log_.delivered()->listener) - listeners.begin());
   }
   Duration cable() const {
     const Passage& last = log_.way().back();
@@ -99,7 +99,7 @@ class LatencyParts {
 /// Runs the scenario once more with the log. False if it was interrupted.
 bool replay(scenario::Run& run, FrameLog& log, const std::function<bool()>& interrupted) {
   run.simulation().set_trace(&log);
-  constexpr std::uint64_t events_a_slice = 500'000;
+  constexpr std::uint64_t events_a_slice = 100'000;
   while (!run.advance(events_a_slice))
     if (interrupted && interrupted()) return false;
   run.simulation().set_trace(nullptr);
@@ -109,12 +109,14 @@ bool replay(scenario::Run& run, FrameLog& log, const std::function<bool()>& inte
 std::vector<SlackPart> parts_of_latency(const LooseEnd& end, const analysis::Bounds& bounds, const scenario::Resolved& resolved, const std::function<bool()>& interrupted) {
   const auto stream = std::find_if(bounds.streams.begin(), bounds.streams.end(), [&](const analysis::StreamBound& each) { return each.name == end.requirement.subject; });
   if (stream == bounds.streams.end() || !stream->latency) return {};
-  scenario::Run run(resolved);
-  FrameLog log(run.network(), stream->index, sim::TrueTime() + end.requirement.from, {});
-  if (!replay(run, log, interrupted) || !log.slowest()) return {};
+  const std::optional<explain::FoundFrames> frames = explain::find_frames(resolved, {.stream = stream->index, .from = sim::TrueTime() + end.requirement.from}, interrupted);
+  if (!frames || !frames->slowest) return {};
   const bool is_jitter = end.requirement.taken_as == RequirementKind::jitter;
-  const Duration least = is_jitter ? log.fastest()->latency() : Duration();
-  if (log.slowest()->latency() - least != end.measured) return {};   // of a frame that is under way at the end
+  const Duration least = is_jitter ? frames->fastest->latency : Duration();
+  if (frames->slowest->latency - least != end.measured) return {};   // of a frame that is under way at the end
+  scenario::Run run(resolved);
+  FrameLog log(run.network(), frames->slowest, {});
+  if (!replay(run, log, interrupted) || !log.delivered()) return {};
   std::vector<SlackPart> parts = LatencyParts(resolved, bounds, *stream, log).make();
   if (is_jitter && !parts.empty()) parts.push_back({"the fastest frame", "the least that it can take", -stream->least, -least});
   return parts;
@@ -123,7 +125,7 @@ std::vector<SlackPart> parts_of_latency(const LooseEnd& end, const analysis::Bou
 std::vector<SlackPart> parts_of_reaction(const LooseEnd& end, const analysis::Bounds& bounds, const scenario::Resolved& resolved, const std::function<bool()>& interrupted) {
   if (!end.requirement.requirement) return {};
   scenario::Run run(resolved);
-  FrameLog log(run.network(), {}, {}, explain::streams_of_words(resolved));
+  FrameLog log(run.network(), {}, explain::streams_of_words(resolved));
   if (!replay(run, log, interrupted)) return {};
   return reaction_parts(run, log, bounds, resolved.requirements[*end.requirement.requirement], end.measured, end.bound);
 }

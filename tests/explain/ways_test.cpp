@@ -2,6 +2,8 @@
 // tag of 4, 28 of IPv4 and UDP, p, and an FCS of 4: 50 + p octets, with 8 of preamble before them and a gap of 12 behind.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "explain/ask.hpp"
 #include "scenario/resolve/resolve.hpp"
 
@@ -91,6 +93,25 @@ TEST(Ways, AStoredFrameSaysWhy) {
   EXPECT_EQ(stored(one, "", R"(, "gates": {"entries": [{"open": [0], "for": "7us"}, {"open": [6], "for": "43us"}]})"),
             "its gate is closed, entry 0");
   EXPECT_EQ(stored(one, "", R"(, "max_sdu": [{"class": 6, "size": "528B"}])"), "cut through");
+}
+
+// A frame of which a copy came by another way is not lost. Frame 91 is: both copies end at the link that is down, the second one as it comes to the switch behind the first.
+TEST(Ways, LostIsOfWhichNoCopyCame) {
+  json::Diagnostics diagnostics;
+  const auto scenario = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/multicast-ring-cut.json", {}, diagnostics);
+  ASSERT_TRUE(scenario) << diagnostics.to_text();
+  const auto frames = explain_frame(*scenario, {.which = FrameQuestion::Which::lost});
+  ASSERT_FALSE(frames.empty());
+  for (const ExplainedFrame& frame : frames) {
+    EXPECT_EQ(frame.sequence, 91u);
+    EXPECT_EQ(frame.end, "dropped");
+    EXPECT_EQ(frame.reason, "link_down");
+  }
+  EXPECT_TRUE(std::ranges::any_of(frames, [](const ExplainedFrame& frame) { return frame.node == "SW_4" || frame.node == "ES_2"; }));
+  // With the ring alone cut, none is.
+  const auto whole = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/multicast-ring-cut.json", {"/faults/1/at=99.9ms"}, diagnostics);
+  ASSERT_TRUE(whole) << diagnostics.to_text();
+  EXPECT_TRUE(explain_frame(*whole, {.which = FrameQuestion::Which::lost}).empty());
 }
 
 TEST(Ways, ThereIsNoFrameOfThatNumber) {

@@ -161,7 +161,7 @@ class StreamBounds {
   /// What loses frames there although nothing has failed; empty: nothing.
   std::string own_loss(const Hop& hop) const {
     const GraphPort& port = graph_.ports[hop.port];
-    if (!has_room(hop)) return "a full queue may drop frames at " + name_of(port);
+    if (std::string why = refusal_at(hop); !why.empty()) return why;
     if (network_.hops[static_cast<std::size_t>(&hop - graph_.hops.data())].may_drop) return "a stream filter may drop frames before " + name_of(port);
     return {};
   }
@@ -237,18 +237,22 @@ class StreamBounds {
     return made;
   }
 
-  /// Queues hold the backlog, and take frames of that length.
-  bool has_room(const Hop& hop) const {
+  /// Why a queue may refuse frames of the hop; empty: it takes them all. A queue without a limit does, whatever comes.
+  std::string refusal_at(const Hop& hop) const {
     const models::PortConfig& config = *graph_.models[hop.port].config;
+    const std::string at = " at " + name_of(graph_.ports[hop.port]);
+    if (!hop.unsupported.empty()) return "nothing is known of what is lost" + at + ": " + hop.unsupported;
     for (models::TrafficClass q = hop.lowest_class; q <= hop.highest_class; ++q) {
       const PortClassBound& bound = network_.ports[hop.port].classes[q];
       if (!bound.is_used) continue;
+      if (config.shaping.queue_max_sdu[q].count != 0 && hop.msdu > config.shaping.queue_max_sdu[q]) return "a queue takes no frames of that length" + at;
+      constexpr models::QueueLimit unlimited;
       const models::QueueLimit& limit = config.queue_limits[q];
+      if (limit.frames == unlimited.frames && limit.octets == unlimited.octets) continue;
       const Ps octets = bound.backlog / graph_.ports[hop.port].octet_time + 1;
-      if (!is_bounded(bound.backlog) || bound.backlog_frames > limit.frames || octets > limit.octets) return false;
-      if (config.shaping.queue_max_sdu[q].count != 0 && hop.msdu > config.shaping.queue_max_sdu[q]) return false;
+      if (!is_bounded(bound.backlog) || bound.backlog_frames > limit.frames || octets > limit.octets) return "a full queue may drop frames" + at;
     }
-    return hop.unsupported.empty();
+    return {};
   }
 
   const scenario::Resolved& r_;
@@ -392,12 +396,15 @@ struct Solved {
 Solved solve(const scenario::Resolved& resolved, const BoundOptions& options) {
   auto hosts = std::make_shared<HostTimes>(resolved);
   FlowGraph graph = make_flow_graph(resolved, options, *hosts);
-  NetworkResult network = bound_network(resolved, graph);
-  for (int round = 0; hosts->has_processors() && hosts->refine(graph, network, options); ++round) {
+  NetworkResult network = bound_network(resolved, graph, options.interrupted);
+  std::uint64_t port_analyses = network.port_analyses;
+  for (int round = 0; !network.is_interrupted && hosts->has_processors() && hosts->refine(graph, network, options); ++round) {
     if (round >= most_host_rounds) hosts->give_up();
     graph = make_flow_graph(resolved, options, *hosts);
-    network = bound_network(resolved, graph);
+    network = bound_network(resolved, graph, options.interrupted);
+    port_analyses += network.port_analyses;
   }
+  network.port_analyses = port_analyses;
   std::vector<StreamBound> streams = StreamBounds(resolved, graph, network, *hosts).make();
   note_circling_ladders(resolved, network, graph, streams);
   return {std::move(hosts), std::move(graph), std::move(network), std::move(streams)};
@@ -408,16 +415,38 @@ Solved solve_with_dds(const scenario::Resolved& resolved, BoundOptions options) 
   options.dds_within.reset();
   options.dds_late.clear();
   if (!resolved.dds || resolved.dds->participants.empty()) return solve(resolved, options);
+  std::uint64_t port_analyses = 0;
   for (const Duration within : times_of_dds) {
     options.dds_within = within;
     Solved solved = solve(resolved, options);
+    port_analyses = solved.network.port_analyses += port_analyses;
+    if (solved.network.is_interrupted) return solved;
     options.dds_late = why_dds_is_late(resolved, options, *solved.hosts, solved.streams);
     if (!options.dds_late.empty()) continue;
     solved.dds_within = within;
     return solved;
   }
   options.dds_within.reset();
-  return solve(resolved, options);
+  Solved solved = solve(resolved, options);
+  solved.network.port_analyses += port_analyses;
+  return solved;
+}
+
+/// What was not finished says nothing.
+void forget_all(const scenario::Resolved& resolved, Bounds& bounds) {
+  const std::string why = "the analysis was interrupted";
+  for (StreamBound& stream : bounds.streams) {
+    stream.latency = stream.total_flow = stream.separated_flow = std::nullopt;
+    std::fill(stream.by_listener.begin(), stream.by_listener.end(), std::nullopt);
+    stream.loses_nothing = stream.reaches_all = stream.loses_by_faults_only = false;
+    stream.loss_reason = stream.reason = why;
+    stream.least = Duration();
+    stream.hops.clear();
+  }
+  for (QueueBound& queue : bounds.queues) queue.bits = queue.frames = std::nullopt;
+  bounds.passages.clear();
+  bounds.requirements.assign(resolved.requirements.size(), {{}, {}, why, {}, FigureRange{}});
+  bounds.is_interrupted = true;
 }
 
 }  // namespace
@@ -428,6 +457,7 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   bounds.hosts = hosts;
   bounds.every = graph.assumptions;
   bounds.rounds = network.rounds;
+  bounds.port_analyses = network.port_analyses;
   bounds.streams = std::move(streams);
   bounds.dds_within = dds_within;
   bounds.queues = queue_bounds(graph, network);
@@ -438,6 +468,10 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
     if (stream.loss_reason.empty()) stream.loss_reason = "copies of a redundant stream are dropped";
   }
   bounds.ledger = assess(resolved, graph, options);
+  if (network.is_interrupted) {
+    forget_all(resolved, bounds);
+    return bounds;
+  }
   withdraw(bounds);
   bounds.deliveries = delivery_bounds(resolved, options, bounds);
   add_reactions(resolved, options, bounds);

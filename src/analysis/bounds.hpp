@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,8 @@ struct BoundOptions {
   /// Set by bound(): messages of DDS come within this time or not at all, and participants wake within it. Nothing: what they send has no curve, for the reason that follows.
   std::optional<sim::Duration> dds_within = {};
   std::string dds_late = {};
+  /// Asked between ports; true ends the analysis: then nothing has a bound.
+  std::function<bool()> interrupted = {};
 };
 
 /// One egress port on the way of a stream.
@@ -135,6 +138,8 @@ struct Bounds {
   std::vector<DeliveryBound> deliveries;      ///< of topics, by reader and what it hears
   std::vector<RequirementBound> requirements;  ///< by Resolved::requirements
   int rounds = 0;                             ///< until the fixed point
+  std::uint64_t port_analyses = 0;            ///< what it took: ports, each as often as it was looked at
+  bool is_interrupted = false;
   std::shared_ptr<const HostTimes> hosts;     ///< what the threads of processors add
   Assumptions every;                          ///< that all bounds need
   std::optional<sim::Duration> dds_within;    ///< of scenarios with DDS: no message is under way for longer, and no participant wakes later; nothing: that is not known

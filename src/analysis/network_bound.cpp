@@ -18,8 +18,8 @@ constexpr int most_rounds = 5000;
 
 class FixedPoint {
  public:
-  FixedPoint(const scenario::Resolved& resolved, const FlowGraph& graph)
-      : r_(resolved), graph_(graph), arrivals_(graph.hops.size()), traffic_(graph.ports.size()), is_due_(graph.ports.size(), true), is_known_(graph.hops.size(), false) {
+  FixedPoint(const scenario::Resolved& resolved, const FlowGraph& graph, const std::function<bool()>& interrupted)
+      : r_(resolved), graph_(graph), interrupted_(interrupted), arrivals_(graph.hops.size()), traffic_(graph.ports.size()), is_due_(graph.ports.size(), true), is_known_(graph.hops.size(), false) {
     result_.hops.resize(graph.hops.size());
     line_of_.resize(graph.hops.size());
     result_.ports.resize(graph.ports.size());
@@ -164,7 +164,12 @@ class FixedPoint {
     for (std::uint32_t at = 0; at < ports; ++at) {
       const std::uint32_t p = result_.rounds % 2 == 0 ? at : ports - 1 - at;   // to and fro, since paths lead both ways
       if (!is_due_[p] || graph_.ports[p].hops.empty()) continue;
+      if (interrupted_ && interrupted_()) {
+        result_.is_interrupted = true;
+        return false;
+      }
       is_due_[p] = false;
+      ++result_.port_analyses;
       changed = true;
       const std::vector<std::uint32_t>& hops = graph_.ports[p].hops;
       for (std::size_t i = 0; i < hops.size(); ++i) {
@@ -462,6 +467,7 @@ class FixedPoint {
 
   const scenario::Resolved& r_;
   const FlowGraph& graph_;
+  const std::function<bool()>& interrupted_;
   std::vector<FrameArrivals> arrivals_;        // by hop
   std::vector<PortTraffic> traffic_;           // by port
   std::vector<std::size_t> line_of_;           // by hop: the link by which it comes to the port, in the port's traffic
@@ -475,6 +481,8 @@ class FixedPoint {
 
 }  // namespace
 
-NetworkResult bound_network(const scenario::Resolved& resolved, const FlowGraph& graph) { return FixedPoint(resolved, graph).run(); }
+NetworkResult bound_network(const scenario::Resolved& resolved, const FlowGraph& graph, const std::function<bool()>& interrupted) {
+  return FixedPoint(resolved, graph, interrupted).run();
+}
 
 }  // namespace takt::analysis

@@ -5,6 +5,8 @@
 // depend on each other in circles the fixed point is a bound too, if there is one; what grows without end is unbounded.
 #pragma once
 
+#include <functional>
+
 #include "analysis/flow_graph.hpp"
 
 namespace takt::analysis {
@@ -28,8 +30,11 @@ struct NetworkResult {
   std::vector<FrameArrivals> arrivals;   ///< by hop, at the port
   std::vector<PortBound> ports;   ///< of the last round
   int rounds = 0;
+  std::uint64_t port_analyses = 0;
+  bool is_interrupted = false;    ///< nothing of the rest counts
 };
 
-NetworkResult bound_network(const scenario::Resolved& resolved, const FlowGraph& graph);
+/// `interrupted`: asked before each port is looked at; true ends it.
+NetworkResult bound_network(const scenario::Resolved& resolved, const FlowGraph& graph, const std::function<bool()>& interrupted = {});
 
 }  // namespace takt::analysis

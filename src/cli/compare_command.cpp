@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/companion.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/load.hpp"
 #include "cli/study_progress.hpp"
 #include "cli/terminal.hpp"
 #include "json/record.hpp"
@@ -48,6 +49,8 @@ ExitStatus run(const CompareOptions& options) {
   const auto b = load(options.b, options.overrides_of_b, diagnostics);
   tell(diagnostics);
   if (!a || !b || diagnostics.has_errors()) return ExitStatus::bad_input;
+  warn_of_another_maker(options.a);
+  if (options.b != options.a) warn_of_another_maker(options.b);
   const InterruptGuard interrupt;
   StudyProgress progress(!options.quiet);
   study::RunOptions how;

@@ -2,10 +2,16 @@
 
 #include "cli/input_kind.hpp"
 #include "cli/terminal.hpp"
+#include "output/written_files.hpp"
 
 #include <cstdio>
 
 namespace takt::cli {
+
+void warn_of_another_maker(const std::string& file) {
+  if (const std::string difference = output::made_by_another(file); !difference.empty())
+    std::fprintf(stderr, "takt: warning: %s: what it showed then need not happen now\n", difference.c_str());
+}
 
 void add_scenario_options(Command command, ScenarioOptions& options) {
   command.add_option("SCENARIO", options.file, "The scenario file (JSON, comments allowed)").required();
@@ -30,6 +36,7 @@ std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is
     return nullptr;
   }
   if (!resolved || !is_quiet) tell(diagnostics);
+  warn_of_another_maker(options.file);
   return resolved;
 }
 

@@ -23,6 +23,9 @@ struct ScenarioOptions {
 /// Adds SCENARIO, --seed, --duration, --set and --format.
 void add_scenario_options(Command command, ScenarioOptions& options);
 
+/// A warning on standard error if files.json beside the file says that a takt with another number of behaviour wrote it.
+void warn_of_another_maker(const std::string& file);
+
 /// Loads the scenario. Diagnostics go to standard error as text, or to standard output as JSON with --format json. Null if there
 /// was an error; the exit status is then bad_input.
 std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet = false);

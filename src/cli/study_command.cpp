@@ -13,7 +13,6 @@
 #include "cli/study_progress.hpp"
 #include "cli/terminal.hpp"
 #include "cli/threads.hpp"
-#include "results/version.hpp"
 #include "output/result_folder.hpp"
 #include "study/content.hpp"
 #include "study/find.hpp"
@@ -82,11 +81,7 @@ std::unique_ptr<study::Store> store_for(const study::Plan& plan, const StudyOpti
   } else {
     store = study::Store::open(options.out, problem);
     status = ExitStatus::bad_input;
-    const std::string digest = fmt::format("{:016x}", plan.digest);
-    if (store && store->header().digest != digest)
-      problem = fmt::format("{} is of another study or an older state of this one (\"{}\" {}, now {})", options.out, store->header().name, store->header().digest, digest);
-    else if (store && store->header().takt != results::version)
-      problem = fmt::format("{} was made by takt {}, this is {}", options.out, store->header().takt, results::version);
+    if (store) problem = study::why_not_resumed(store->header(), plan, options.out);
   }
   if (problem.empty()) return store;
   std::fprintf(stderr, "takt: %s\n", problem.c_str());
@@ -201,6 +196,8 @@ ExitStatus report(const std::string& store, const std::string& out) {
   std::string problem;
   const auto content = study::read_store(store, problem);
   if (!content) return bad(problem);
+  if (const std::string difference = results::difference_to(content->header.maker, store); !difference.empty())
+    std::fprintf(stderr, "takt: warning: %s: its figures are those of then\n", difference.c_str());
   print(study::text_summary(*content));
   problem = output::write_file(out, study::html_report(*content));
   if (problem.empty()) return ExitStatus::pass;

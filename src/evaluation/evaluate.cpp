@@ -10,6 +10,7 @@
 #include "evaluation/collect_streams.hpp"
 #include "evaluation/judge.hpp"
 #include "results/result_json.hpp"
+#include "results/behaviour.hpp"
 #include "results/version.hpp"
 #include "scenario/run/accounts.hpp"
 #include "scenario/topology/graph_figures.hpp"
@@ -167,6 +168,7 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   const scenario::Scenario& scenario = run.resolved().scenario;
   RunResult result;
   result.version = version;
+  result.behaviour = behaviour();
   result.scenario = scenario.name;
   result.seed = scenario.seed;
   result.simulated = run.simulation().now().since_start();

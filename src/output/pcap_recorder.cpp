@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "output/pcapng.hpp"
-#include "results/version.hpp"
+#include "results/behaviour.hpp"
 
 namespace takt::output {
 namespace {
@@ -50,7 +50,7 @@ std::string PcapRecorder::add_stream(const std::string& path, models::StreamInde
 void PcapRecorder::begin(File& file) {
   file.interface_of_port.assign(directory_.ports().size(), none);
   block_.clear();
-  pcapng::add_section_header(block_, fmt::format("takt {}", results::version));
+  pcapng::add_section_header(block_, results::name_of(results::this_takt()));
   file.file->write(block_);
 }
 

@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "json/document.hpp"
 #include "json/node.hpp"
 #include "output/result_folder.hpp"
-#include "results/version.hpp"
 
 namespace takt::output {
 namespace {
@@ -29,6 +29,13 @@ bool is_plain(const std::string& name) { return !name.empty() && name != "." && 
 std::string text_of(const json::Node& object, std::string_view key) {
   const json::Node* const found = object.find(key);
   return found != nullptr && found->kind == json::Kind::string ? found->text : std::string();
+}
+
+/// 0 where there is none.
+std::uint32_t number_of(const json::Node& object, std::string_view key) {
+  const json::Node* const found = object.find(key);
+  const auto number = found != nullptr && found->kind == json::Kind::number ? json::integer_of(*found) : std::nullopt;
+  return number && *number > 0 && *number <= std::numeric_limits<std::uint32_t>::max() ? static_cast<std::uint32_t>(*number) : 0;
 }
 
 const std::vector<json::Node>& items_of(const json::Node& object, std::string_view key) {
@@ -72,17 +79,25 @@ WrittenFiles::WrittenFiles(std::string folder, std::string command, std::string 
 
 std::string WrittenFiles::path_of(const std::string& name) const { return (fs::path(folder_) / name).string(); }
 
-void WrittenFiles::read() {
-  std::ifstream stream(path_of(manifest), std::ios::binary);
-  if (!stream) return;
+std::vector<WrittenFiles::Entry> WrittenFiles::entries_in(const std::string& folder) {
+  std::ifstream stream((fs::path(folder) / manifest).string(), std::ios::binary);
+  if (!stream) return {};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   json::Diagnostics unread;
   const auto document = json::parse(text, manifest, unread);
-  if (!document || document->root().kind != json::Kind::object) return;
+  if (!document || document->root().kind != json::Kind::object) return {};
+  std::vector<Entry> entries;
   for (const json::Node& node : items_of(document->root(), "written")) {
-    Entry entry{text_of(node, "command"), text_of(node, "takt"), text_of(node, "scenario"), text_of(node, "digest"), {}};
+    Entry entry{text_of(node, "command"), {text_of(node, "takt"), number_of(node, "behaviour")}, text_of(node, "scenario"), text_of(node, "digest"), {}};
     for (const json::Node& file : items_of(node, "files"))
       if (file.kind == json::Kind::string && is_plain(file.text)) entry.files.push_back(file.text);
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+void WrittenFiles::read() {
+  for (Entry& entry : entries_in(folder_)) {
     if (entry.command == command_)
       older_ = std::move(entry.files);
     else
@@ -132,7 +147,8 @@ std::string WrittenFiles::end(const std::string& scenario, std::optional<std::ui
   const auto tell = [&](const Entry& entry) {
     json::Node node = json::Node::object();
     node.add("command", json::Node::of_string(entry.command));
-    node.add("takt", json::Node::of_string(entry.version));
+    node.add("takt", json::Node::of_string(entry.maker.version));
+    if (entry.maker.behaviour > 0) node.add("behaviour", json::Node::of_integer(entry.maker.behaviour));
     node.add("scenario", json::Node::of_string(entry.scenario));
     if (!entry.digest.empty()) node.add("digest", json::Node::of_string(entry.digest));
     json::Node& files = node.add("files", json::Node::array());
@@ -140,7 +156,7 @@ std::string WrittenFiles::end(const std::string& scenario, std::optional<std::ui
     written.items.push_back(std::move(node));
   };
   for (const Entry& other : others_) tell(other);
-  tell({command_, results::version, scenario, digest ? fmt::format("{:016x}", *digest) : "", files_});
+  tell({command_, results::this_takt(), scenario, digest ? fmt::format("{:016x}", *digest) : "", files_});
   return write_file(path_of(manifest), json::pretty(root));
 }
 
@@ -159,7 +175,17 @@ std::string WrittenFiles::summary() const {
   for (const auto& [how, names] : ways) open += fmt::format("{}{} {}", open.empty() ? "" : "; ", shortened(names), how);
   if (!open.empty()) text += "To open: " + open + "\n";
   if (!removed_.empty()) text += "Removed, of an older run: " + shortened(removed_) + "\n";
+  for (const Entry& other : others_)
+    if (const std::string difference = other.files.empty() ? std::string() : results::difference_to(other.maker, fmt::format("What takt {} wrote there", other.command)); !difference.empty())
+      text += difference + ": do not compare it with these files, make it anew\n";
   return text;
+}
+
+std::string made_by_another(const std::string& file) {
+  const fs::path path(file);
+  for (const WrittenFiles::Entry& entry : WrittenFiles::entries_in(path.has_parent_path() ? path.parent_path().string() : "."))
+    if (std::ranges::find(entry.files, path.filename().string()) != entry.files.end()) return results::difference_to(entry.maker, file);
+  return {};
 }
 
 }  // namespace takt::output

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "results/behaviour.hpp"
+
 namespace takt::output {
 
 /// The files of one command in one folder. Nothing else is ever removed: what files.json does not name, what other commands wrote, what the command reads.
@@ -29,15 +31,18 @@ class WrittenFiles {
   /// Up to three lines for people: what was written, what to open with what, what was removed. Empty without files.
   std::string summary() const;
 
- private:
   /// What one command wrote.
   struct Entry {
     std::string command;
-    std::string version;
+    results::Maker maker;
     std::string scenario;
     std::string digest;   ///< empty: it has none
     std::vector<std::string> files;
   };
+  /// What files.json of a folder says; nothing if there is none, or a broken one.
+  static std::vector<Entry> entries_in(const std::string& folder);
+
+ private:
   void read();
   std::string remove(const std::string& name) const;
   bool is_input(const std::string& name) const;
@@ -50,6 +55,9 @@ class WrittenFiles {
   std::vector<std::string> files_;
   std::vector<std::string> removed_;
 };
+
+/// A sentence with both numbers of behaviour if files.json beside the file says that another takt wrote it. Empty: this one did, or nothing is known.
+std::string made_by_another(const std::string& file);
 
 /// How people look at a file, by its name: "in ui.perfetto.dev". Empty: in no way of its own.
 std::string_view opened_in(std::string_view name);

@@ -24,6 +24,7 @@
 #include "python/common.hpp"
 #include "report/replay.hpp"
 #include "report/run_page.hpp"
+#include "results/behaviour.hpp"
 #include "results/result_json.hpp"
 #include "results/version.hpp"
 #include "scenario/resolve/resolve.hpp"
@@ -268,8 +269,7 @@ py::tuple run_study(const PlanPointer& plan, const std::string& path, bool resum
     std::unique_ptr<study::Store> store;
     std::vector<bool> finished(plan->points(), false);
     if (resume) store = study::Store::open(path, problem);
-    if (store && store->header().digest != [&] { char text[17]; std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(plan->digest)); return std::string(text); }())
-      problem = path + " is of another study or an older state of this one";
+    if (store) problem = study::why_not_resumed(store->header(), *plan, path);
     if (store && problem.empty()) problem = store->finished(finished);
     if (problem.empty()) problem = study::validate(*plan, how, finished);
     if (problem.empty() && !resume) store = study::Store::create(path, *plan, problem);
@@ -343,6 +343,7 @@ PYBIND11_MODULE(_takt, m) {
   using namespace takt::python;
   m.doc() = "What takt/__init__.py is made of; use that.";
   m.attr("version") = results::version;
+  m.attr("behaviour") = results::behaviour();
   m.attr("reasons") = reasons();
   static PyObject* const mistake = PyErr_NewExceptionWithDoc("takt.Mistake", "Something is wrong with what takt was given. The text names places; `diagnostics` has the same as a list.", PyExc_ValueError, nullptr);
   m.attr("Mistake") = py::reinterpret_borrow<py::object>(mistake);
@@ -398,6 +399,8 @@ PYBIND11_MODULE(_takt, m) {
 
   py::class_<study::Content, ContentPointer>(m, "Content")
       .def_property_readonly("name", [](const study::Content& c) { return c.header.name; })
+      .def_property_readonly("behaviour", [](const study::Content& c) { return c.header.maker.behaviour; })
+      .def("difference", [](const study::Content& c, const std::string& path) { return results::difference_to(c.header.maker, path); })
       .def_property_readonly("factors", [](const study::Content& c) { std::vector<std::string> names; for (const auto& f : c.factors) names.push_back(f.name); return names; })
       .def_property_readonly("measures", [](const study::Content& c) { std::vector<std::string> names; for (const auto& f : c.measures) names.push_back(f.name); return names; })
       .def_property_readonly("passes", [](const study::Content& c) { return c.passes; })

@@ -37,7 +37,7 @@ std::string head(const RunResult& result) {
   table.row({{"seed"}, {std::to_string(result.seed)}});
   table.row({{"digest"}, {fmt::format("{:016x}", result.digest)}});
   table.row({{"events"}, {std::to_string(result.events)}});
-  table.row({{"takt"}, {result.version}});
+  table.row({{"takt"}, {result.version + ", behaviour " + std::to_string(result.behaviour)}});
   return table.take();
 }
 

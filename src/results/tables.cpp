@@ -137,6 +137,7 @@ const json::Record& describe(json::Type<QueueResult>) {
 const json::Record& describe(json::Type<RunResult>) {
   static constexpr json::Output outputs[] = {
       json::output<&RunResult::version>("takt", "The version of takt."),
+      json::output<&RunResult::behaviour>("behaviour", "The number of behaviour of takt: figures of one scenario and seed can be compared where it is the same."),
       json::output<&RunResult::scenario>("scenario", "Its name."),
       json::output<&RunResult::seed>("seed", "The seed of all that is random."),
       json::output<&RunResult::simulated>("simulated_ps", "How far the run came."),

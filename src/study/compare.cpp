@@ -191,6 +191,7 @@ const json::Record& describe(json::Type<Divergence>) {
 
 const json::Record& describe(json::Type<Comparison>) {
   static constexpr json::Output outputs[] = {
+      json::output<&Comparison::behaviour>("behaviour", "The number of behaviour of the takt that ran both."),
       json::output<&Comparison::a>("a", "The file, and what was set in it."),
       json::output<&Comparison::b>("b", "The other one."),
       json::output<&Comparison::pairs>("pairs", "Pairs of runs, each with one seed for both."),

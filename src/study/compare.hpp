@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "results/behaviour.hpp"
 #include "study/divergence.hpp"
 #include "study/plan.hpp"
 #include "study/runner.hpp"
@@ -22,6 +23,7 @@ struct ComparedMeasure {
 };
 
 struct Comparison {
+  std::uint32_t behaviour = results::behaviour();  ///< of the takt that ran both
   std::string a;                                  ///< the files, and what was set in them
   std::string b;
   std::uint32_t pairs = 0;

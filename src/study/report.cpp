@@ -98,7 +98,7 @@ class Page {
     for (const PlannedLimit& limit : content_.limits) limits += (limits.empty() ? "" : ", ") + limit.text;
     row("limits", limits.empty() ? "those of the scenario" : limits);
     row("CPU time", with_unit(content_.cpu_seconds, "s"));
-    row("configuration", content_.header.digest + ", takt " + content_.header.takt);
+    row("configuration", content_.header.digest + ", " + results::name_of(content_.header.maker));
     add("</table>\n<table><tr><th>factor</th><th>levels</th></tr>\n");
     for (const ContentFactor& factor : content_.factors) {
       std::string levels;

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include "results/version.hpp"
 #include "sim/digest.hpp"
 #include "study/sql.hpp"
 
@@ -159,7 +158,8 @@ std::unique_ptr<Store> Store::create(const std::string& path, const Plan& plan, 
   if (problem.empty()) problem = execute(database, "BEGIN;" + tables_of(plan.factors.size(), plan.measures.size()) + view_of(plan));
   if (problem.empty()) {
     put_meta(database, "schema", std::to_string(store_version), problem);
-    put_meta(database, "takt", results::version, problem);
+    put_meta(database, "takt", results::this_takt().version, problem);
+    put_meta(database, "behaviour", std::to_string(results::behaviour()), problem);
     put_meta(database, "study", plan.study.name, problem);
     put_meta(database, "digest", fmt::format("{:016x}", plan.digest), problem);
     put_meta(database, "configuration", plan.text, problem);
@@ -210,7 +210,8 @@ std::string Store::read_header() {
     const std::string key = select.text(0);
     const std::string value = select.text(1);
     if (key == "schema") version = value;
-    if (key == "takt") header_.takt = value;
+    if (key == "takt") header_.maker.version = value;
+    if (key == "behaviour") header_.maker.behaviour = static_cast<std::uint32_t>(std::strtoul(value.c_str(), nullptr, 10));
     if (key == "study") header_.name = value;
     if (key == "digest") header_.digest = value;
     if (key == "configuration") header_.configuration = value;
@@ -306,6 +307,13 @@ std::string join(sqlite3* database, const std::string& part) {
 
 }  // namespace
 
+std::string why_not_resumed(const StoreHeader& header, const Plan& plan, const std::string& path) {
+  const std::string digest = fmt::format("{:016x}", plan.digest);
+  if (header.digest != digest) return fmt::format("{} is of another study or an older state of this one (\"{}\" {}, now {})", path, header.name, header.digest, digest);
+  const std::string difference = results::difference_to(header.maker, path);
+  return difference.empty() ? difference : difference + ". Go on with a takt of that number, or run the study anew into another store";
+}
+
 std::string merge_stores(const std::string& path, const std::vector<std::string>& parts) {
   if (std::filesystem::exists(path)) return path + " is there already";
   std::optional<StoreHeader> first;
@@ -316,7 +324,8 @@ std::string merge_stores(const std::string& path, const std::vector<std::string>
     const StoreHeader& header = store->header();
     if (!first) first = header;
     if (header.digest != first->digest) return fmt::format("{} is of another study than {} (\"{}\" {}, \"{}\" {})", part, parts.front(), header.name, header.digest, first->name, first->digest);
-    if (header.takt != first->takt) return fmt::format("{} was made by takt {}, {} by {}", part, header.takt, parts.front(), first->takt);
+    if (header.maker.behaviour != first->maker.behaviour)
+      return fmt::format("{} was made by {}, {} by {}: their points cannot be compared. Run one of them anew, with the takt of the other", part, results::name_of(header.maker), parts.front(), results::name_of(first->maker));
     store->tidy();
   }
   make_folder_of(path);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "results/behaviour.hpp"
 #include "study/plan.hpp"
 #include "study/point.hpp"
 
@@ -19,7 +20,7 @@ constexpr int store_version = 1;
 
 /// What a store says of itself.
 struct StoreHeader {
-  std::string takt;          ///< the version that made it
+  results::Maker maker;      ///< the takt that made it
   std::string name;          ///< of the study
   std::string digest;        ///< of the configuration, 16 hex digits
   std::uint64_t variants = 0;
@@ -59,6 +60,9 @@ class Store {
   void* insert_ = nullptr;   // the prepared statement of add()
   StoreHeader header_;
 };
+
+/// Why points of a plan cannot be added to a store: it is of another study, or another takt would have other results for the same points. Else empty.
+std::string why_not_resumed(const StoreHeader& header, const Plan& plan, const std::string& path);
 
 /// Joins stores of one study into a new one. Stores of different studies, versions or results are refused. The problem, or "".
 std::string merge_stores(const std::string& path, const std::vector<std::string>& parts);

@@ -92,7 +92,7 @@ class Help(CliTest):
     def test_version(self):
         status, out, err = takt("--version")
         self.assertEqual((status, err), (0, ""))
-        self.assertRegex(out, r"^takt \d+\.\d+\.\d+(, revision [0-9a-f]{12}( with changes)?)?\n((with|without) [^\n]+\n)+$")
+        self.assertRegex(out, r"^takt \d+\.\d+\.\d+, behaviour [1-9]\d*(, revision [0-9a-f]{12}( with changes)?)?\n((with|without) [^\n]+\n)+$")
         self.assertRegex(out, r"\n(with|without) DDS on real nodes \(Cyclone DDS\)\n")
 
     def test_wrong_usage_is_bad_input(self):

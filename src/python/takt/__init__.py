@@ -12,6 +12,7 @@ Names of results are those of result.json (docs/reference/result.md). Times are 
 """
 import json as _json
 import os as _os
+import warnings as _warnings
 
 from . import _takt
 from ._takt import Mistake
@@ -19,6 +20,7 @@ from .records import Record
 
 __all__ = ["Figure", "Frames", "Mistake", "Plan", "Record", "Result", "Scenario", "Schedule", "Table", "explore", "load", "loads", "read_store", "schedule", "study"]
 __version__ = _takt.version
+behaviour = _takt.behaviour   # figures of one scenario and seed can be compared where this number is the same
 
 
 def load(path, **overrides):
@@ -40,8 +42,11 @@ def study(path):
 
 
 def read_store(path):
-    """What a study has left behind (takt study --out STORE)."""
-    return Table(_takt.read_store(_os.fspath(path)))
+    """What a study has left behind (takt study --out STORE). Warns if a takt with another number of behaviour made it."""
+    core = _takt.read_store(_os.fspath(path))
+    if difference := core.difference(_os.fspath(path)):
+        _warnings.warn(f"{difference}: its figures are those of then", stacklevel=2)
+    return Table(core)
 
 
 def _how_to_schedule(*, routes="search", objective="feasible", limit="10s", seed=1, jobs=None, entries=1_000_000, gates=False, progress=None):
@@ -308,6 +313,11 @@ class Table:
     @property
     def name(self):
         return self._core.name
+
+    @property
+    def behaviour(self):
+        """The number of behaviour of the takt that made it (takt.behaviour is that of this one); 0: it names none."""
+        return self._core.behaviour
 
     @property
     def factors(self):

@@ -11,6 +11,7 @@ Path = str | os.PathLike[str]
 Progress = Callable[[float], object] | None
 
 __version__: str
+behaviour: int
 
 class Mistake(ValueError):
     diagnostics: list[dict[str, Any]]
@@ -88,6 +89,8 @@ class Plan:
 class Table:
     @property
     def name(self) -> str: ...
+    @property
+    def behaviour(self) -> int: ...
     @property
     def factors(self) -> list[str]: ...
     @property

@@ -13,6 +13,8 @@ import sys
 import tempfile
 import unittest
 
+import outputs
+
 TAKT = ""
 SOURCE = pathlib.Path()
 # Not run here, by what they begin with, and why. All else that stands in the pages is.
@@ -43,7 +45,6 @@ STREAMS = json.dumps({"x": {"sources": ["a"], "destinations": ["b"], "cycle_time
 FILES = {
     "interchange.md": {"plant.json": INSTANCE},
     "schedules.md": {"plant.json": INSTANCE, "instance.json": INSTANCE, "new.json": json.dumps({"streams": [{"name": "axis-8", "talker": "b", "listeners": ["a"], "octets": 200, "period": 1_000_000_000}]}),
-                     "stream.json": json.dumps({"streams": [{"name": "camera", "from": "h3", "to": "h5", "payload": "1000B", "every": "1ms", "offset": "auto", "pcp": 6}]}),
                      "ring.top": TOPOLOGY, "set1.pat": STREAMS, "set2.pat": STREAMS,
                      "task.csv": "stream,src,dst,size,period,deadline,jitter\n0,0,[1],200,1000000,1000000,1000000\n",
                      "topo.csv": "link,q_num,rate,t_proc,t_prop\n\"(0, 2)\",8,1,0,0\n\"(2, 0)\",8,1,0,0\n\"(1, 2)\",8,1,0,0\n\"(2, 1)\",8,1,0,0\n"},
@@ -118,9 +119,8 @@ class Pages(unittest.TestCase):
                 (folder / "scenarios").symlink_to(SOURCE / "scenarios")
                 for file, content in FILES.get(page.name, {}).items():
                     (folder / file).write_text((SOURCE / content).read_text(encoding="utf-8") if content.startswith("scenarios/") else content, encoding="utf-8")
-                if page.name == "schedules.md":
-                    section = page.read_text(encoding="utf-8").split("## From streams to gate lists in three commands\n")[1]
-                    (folder / "cell.json").write_text(re.findall(r"^```[a-z]*\n(.*?)^```", section, re.M | re.S)[0], encoding="utf-8")
+                for file, content in outputs.files_of(outputs.blocks_of(page)).items():
+                    (folder / file).write_text(content, encoding="utf-8")
                 done = set()
                 for words in commands(page):
                     if not is_whole(words) or tuple(words) in done:
@@ -144,36 +144,25 @@ class Pages(unittest.TestCase):
         self.assertGreater(ran, 60)
         self.assertEqual(excused, set(NOT_RUN), "what is not run stands in a page")
 
-    def test_streams_to_gate_lists_in_three_commands(self):
-        """The tutorial as it stands: its scenario, its commands one after the other, and what it says that the first one says."""
-        page = (SOURCE / "docs" / "schedules.md").read_text(encoding="utf-8")
-        section = page.split("## From streams to gate lists in three commands\n")[1].split("\n## ")[0]
-        scenario, listing, said = re.findall(r"^```[a-z]*\n(.*?)^```", section, re.M | re.S)[:3]
+    def test_streams_to_gate_lists_and_the_way_to_another_schedule(self):
+        """The tutorial as it stands: its scenario, its commands one after the other, then those of a change. What they print: outputs_test.py."""
+        page = SOURCE / "docs" / "schedules.md"
+        blocks = outputs.blocks_of(page)
+        at = {block.lines[0].split("  ")[0]: block for block in blocks if block.is_list_of_commands()}
         with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "cell.json").write_text(scenario, encoding="utf-8")
-            outputs = []
-            for line in listing.splitlines():
-                words = shlex.split(re.split(r"\s{2,}", line)[0])
-                with self.subTest(command=" ".join(words)):
-                    done = subprocess.run([TAKT, *words[1:]], capture_output=True, text=True, check=False, timeout=300, cwd=folder)
-                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                    outputs.append(done.stdout)
-            self.assertGreaterEqual(len(outputs), 3)
-            self.assertTrue(outputs[0].startswith(said), outputs[0])
+            for file, content in outputs.files_of(blocks).items():
+                (pathlib.Path(folder) / file).write_text(content, encoding="utf-8")
+            printed = []
+            for first in ("takt schedule cell.json --out scheduled.json", "takt schedule --to scheduled.json --add stream.json --out changed.json --transition transition.json"):
+                for line in at[first].lines:
+                    words = shlex.split(re.split(r"\s{2,}", line)[0])
+                    with self.subTest(command=" ".join(words)):
+                        done = subprocess.run([TAKT, *words[1:]], capture_output=True, text=True, check=False, timeout=300, cwd=folder)
+                        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                        printed.append(done.stdout)
+            self.assertGreaterEqual(len(printed), 7)
             self.assertTrue(any((pathlib.Path(folder) / "lists").iterdir()))
-
-    def test_the_way_to_another_schedule(self):
-        """What the page says that the first command of its section says; and the scenario that it writes passes."""
-        page = (SOURCE / "docs" / "schedules.md").read_text(encoding="utf-8")
-        cell = re.findall(r"^```[a-z]*\n(.*?)^```", page.split("## From streams to gate lists in three commands\n")[1], re.M | re.S)[0]
-        listing, said = re.findall(r"^```[a-z]*\n(.*?)^```", page.split("### The way there\n")[1], re.M | re.S)[:2]
-        with tempfile.TemporaryDirectory() as folder:
-            (pathlib.Path(folder) / "cell.json").write_text(cell, encoding="utf-8")
-            (pathlib.Path(folder) / "stream.json").write_text(FILES["schedules.md"]["stream.json"], encoding="utf-8")
-            lines = ["takt schedule cell.json --out scheduled.json", *listing.splitlines()]
-            outputs = [subprocess.run([TAKT, *shlex.split(line)[1:]], capture_output=True, text=True, check=True, timeout=300, cwd=folder).stdout for line in lines]
-            self.assertEqual(outputs[1], said)
-            self.assertIn("cell-transition: pass", outputs[-1])
+            self.assertIn("cell-transition: pass", printed[-1])
 
     def test_one_spelling(self):
         for page in pages():

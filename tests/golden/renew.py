@@ -5,8 +5,8 @@ usage: renew.py BUILD_FOLDER [--hour] [--because TEXT]     renews the digests, a
        renew.py --number [--because TEXT | --same]         renews the number alone, without a build
        renew.py --check                                    says what is not renewed
 
-BUILD_FOLDER holds takt and takt_runs_test of the changed sources. Renewed are tests/golden/scenario_digests.txt, the sample output of the README
-and, with --hour (an hour simulated, some minutes), the digest in docs/papers/programs.md. The commit says why they change.
+BUILD_FOLDER holds takt and takt_runs_test of the changed sources. Renewed are tests/golden/scenario_digests.txt, what the pages show of
+outputs (tests/docs/renew.py) and, with --hour (an hour simulated, some minutes), the digest in docs/papers/programs.md. The commit says why they change.
 
 The number of behaviour is the number of lines in src/results/behaviours.inc; --because adds one: "cut-through starts behind closed gates, too".
 tests/golden/behaviour.txt holds it beside what it is the number of: a hash of the pinned digests and one of docs/reference/result.md, where the
@@ -115,7 +115,7 @@ def main():
         build = pathlib.Path(options.build).resolve()
         was_noted, before = not Behaviour().problem(), lines_of(ROOT, DIGESTS, "#")
         subprocess.run([build / "takt_runs_test", "--gtest_brief=1", "--gtest_filter=Runs.DigestsAreThePinnedOnes"], env={**os.environ, "TAKT_UPDATE_GOLDEN": "1"}, check=True)
-        renew("README.md", "robot-arm: pass, digest ", digest_of(build / "takt", "robot-arm.json"))
+        subprocess.run([ROOT / "tests" / "docs" / "renew.py", build], check=True)
         if options.hour:
             renew("docs/papers/programs.md", "Digest of the hour at n = 20: `", digest_of(build / "takt", "papers/programs/round-trip-20.json", "--duration", "3610s"))
         options.same = options.same or (was_noted and set(before) <= set(lines_of(ROOT, DIGESTS, "#")))   # only new scenarios

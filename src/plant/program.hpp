@@ -60,6 +60,13 @@ struct Reply {
 };
 
 struct Program {
+  Program();
+  Program(const Program&);
+  Program(Program&&) noexcept;
+  Program& operator=(const Program&);
+  Program& operator=(Program&&) noexcept;
+  ~Program();
+
   json::Source where;
   std::string name;
   Variant variant = Variant::robust;

@@ -44,6 +44,13 @@ struct FrequencyAt {
 
 /// One node's oscillator and the counter behind it.
 struct Clock {
+  Clock();
+  Clock(const Clock&);
+  Clock(Clock&&) noexcept;
+  Clock& operator=(const Clock&);
+  Clock& operator=(Clock&&) noexcept;
+  ~Clock();
+
   json::Source where;
   bool ideal = false;
   FrequencyRange offset;
@@ -143,6 +150,13 @@ struct IntervalRequest {
 };
 
 struct Gptp {
+  Gptp();
+  Gptp(const Gptp&);
+  Gptp(Gptp&&) noexcept;
+  Gptp& operator=(const Gptp&);
+  Gptp& operator=(Gptp&&) noexcept;
+  ~Gptp();
+
   json::Source where;
   std::int8_t log_sync_interval = -3;
   std::int8_t log_announce_interval = 0;

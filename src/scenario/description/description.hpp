@@ -157,6 +157,13 @@ struct Preemption {
 
 /// What ports do beyond strict priority: all of a node, or the one to a certain neighbour.
 struct Egress {
+  Egress();
+  Egress(const Egress&);
+  Egress(Egress&&) noexcept;
+  Egress& operator=(const Egress&);
+  Egress& operator=(Egress&&) noexcept;
+  ~Egress();
+
   json::Source where;
   std::optional<std::string> to;
   std::optional<Gates> gates;
@@ -273,6 +280,13 @@ struct Generator {
 };
 
 struct NetworkSection {
+  NetworkSection();
+  NetworkSection(const NetworkSection&);
+  NetworkSection(NetworkSection&&) noexcept;
+  NetworkSection& operator=(const NetworkSection&);
+  NetworkSection& operator=(NetworkSection&&) noexcept;
+  ~NetworkSection();
+
   json::Source where;
   json::NameMap<Node> nodes;
   std::vector<Link> links;
@@ -310,6 +324,13 @@ struct Names {
 };
 
 struct Stream {
+  Stream();
+  Stream(const Stream&);
+  Stream(Stream&&) noexcept;
+  Stream& operator=(const Stream&);
+  Stream& operator=(Stream&&) noexcept;
+  ~Stream();
+
   json::Source where;
   std::string name;
   std::string from;
@@ -381,6 +402,13 @@ struct Tolerance {
 };
 
 struct Requirement {
+  Requirement();
+  Requirement(const Requirement&);
+  Requirement(Requirement&&) noexcept;
+  Requirement& operator=(const Requirement&);
+  Requirement& operator=(Requirement&&) noexcept;
+  ~Requirement();
+
   json::Source where;
   std::optional<Reaction> reaction;
   std::optional<std::string> program;
@@ -427,6 +455,13 @@ struct NetworkGates {
 };
 
 struct Scenario {
+  Scenario();
+  Scenario(const Scenario&);
+  Scenario(Scenario&&) noexcept;
+  Scenario& operator=(const Scenario&);
+  Scenario& operator=(Scenario&&) noexcept;
+  ~Scenario();
+
   json::Source where;
   std::optional<std::string> schema;  ///< "$schema", for editors
   std::string name;

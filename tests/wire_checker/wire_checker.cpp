@@ -47,7 +47,8 @@ WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> ch
     for (const sim::ComponentId part : directory.nodes[n]) place_of(part).node = n;
   for (std::uint32_t n = 0; n < directory.ports.size(); ++n)
     for (std::size_t p = 0; p < directory.ports[n].size(); ++p)
-      if (p < direction_of_port_[n].size()) place_of(directory.ports[n][p]).direction = direction_of_port_[n][p];
+      if (p < direction_of_port_[n].size() && direction_of_port_[n][p] != no_direction)
+        place_of(directory.ports[n][p]).direction = direction_of_port_[n][p];
   for (const Change& change : changes_) routes_change_ |= std::holds_alternative<Change::Routes>(change.what);
 }
 
@@ -59,7 +60,7 @@ void WireChecker::connect(const models::LinkPlan& link, const models::LinkPlan::
   const Ps delay = link.delay.ps() + nodes_[to.node.value]->fixed_delay;
   const auto link_index = static_cast<std::uint32_t>(&link - plan_.links.data());
   std::vector<std::uint32_t>& ports = direction_of_port_[from.node.value];
-  if (ports.size() <= from.port) ports.resize(from.port + std::size_t{1});
+  if (ports.size() <= from.port) ports.resize(from.port + std::size_t{1}, no_direction);
   ports[from.port] = static_cast<std::uint32_t>(directions_.size());
   directions_.push_back(std::make_unique<Direction>(
       Direction{PortChecker(name, config, link.rate, violations_), link_index, from.node.value, to.node.value, to.port, delay, 0, 0, false}));
@@ -71,6 +72,7 @@ void WireChecker::announce_cut_through() {
     if (!nodes_[incoming->to]->forwards) continue;
     unsigned cut = 0, timed = 0;
     for (std::size_t port = 0; port < direction_of_port_[incoming->to].size(); ++port) {
+      if (direction_of_port_[incoming->to][port] == no_direction) continue;
       const models::PortConfig& config = directions_[direction_of_port_[incoming->to][port]]->checker.config();
       for (unsigned p = 0; p < 8; ++p) {
         const models::TrafficClass q = config.traffic_class_of_priority[p];
@@ -145,8 +147,7 @@ std::set<std::uint32_t> WireChecker::ports_with_headers(Ps now) const {
     const auto is_header = [&](const Arrival& arrival) { return arrival.looked_at == now && arrival.complete > now; };
     if (!node.forwards || std::ranges::none_of(node.arrivals, is_header)) continue;
     for (const std::uint32_t direction : direction_of_port_[wake->second])
-      if (directions_[direction]->from == wake->second && directions_[direction]->checker.config().cut_through != 0)
-        ports.insert(direction);
+      if (direction != no_direction && directions_[direction]->checker.config().cut_through != 0) ports.insert(direction);
   }
   return ports;
 }

@@ -104,7 +104,8 @@ class WireChecker final : public sim::TraceSink {
   Violations violations_;
   std::vector<Place> places_;                    // by component
   std::vector<std::unique_ptr<Direction>> directions_;
-  std::vector<std::vector<std::uint32_t>> direction_of_port_;  // by node and port
+  static constexpr std::uint32_t no_direction = 0xFFFF'FFFF;
+  std::vector<std::vector<std::uint32_t>> direction_of_port_;  // by node and port; a number between those of others may have no link
   std::vector<std::unique_ptr<Node>> nodes_;
   std::vector<std::uint32_t> reasons_down_;      // by link
   std::size_t next_change_ = 0;

@@ -51,9 +51,9 @@ struct LineChart {
   Dimension y;
   std::vector<Series> series;
   std::vector<Rule> rules;
-  std::vector<Moment> moments = {};
   double width = 560;
   double height = 300;
+  std::vector<Moment> moments = {};
 };
 std::string draw(const LineChart& chart);
 

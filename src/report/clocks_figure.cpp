@@ -8,8 +8,9 @@ namespace takt::report {
 
 ClockCurves::ClockCurves(const scenario::Run& run, const results::RunResult& result) : run_(&run), result_(&result), begin_(begin_of(result)), end_(sim::TrueTime() + result.simulated) {}
 
-/// Clocks that are still far off would leave no room for the others: the picture begins when most are locked.
+/// Clocks that are still far off would leave no room for the others: the picture begins when figures count, or when most are locked.
 sim::TrueTime ClockCurves::begin_of(const results::RunResult& result) {
+  if (result.from > sim::Duration() && result.from < result.simulated) return sim::TrueTime() + result.from;
   std::vector<sim::Duration> locked;
   for (const results::ClockResult& clock : result.clocks)
     if (clock.time_to_lock) locked.push_back(*clock.time_to_lock);

@@ -34,7 +34,7 @@ struct ExplainOptions {
   bool adversarial = false;
   bool bound = false;
   verify::SearchOptions search;
-  double budget = 60;   // millions of events
+  double budget = static_cast<double>(verify::default_events) / 1e6;   // millions of events
 };
 
 constexpr sim::Duration no_limit = sim::Duration::from_ps(3'600'000'000'000'000);
@@ -175,7 +175,7 @@ class Asking {
 
   std::optional<RequirementResult> nearest_to_limit(const scenario::Resolved& resolved) const {
     scenario::Run run(resolved);
-    while (!run.advance(500'000))
+    while (!run.advance(100'000))
       if (interrupt_.requested()) return std::nullopt;
     const results::RunResult all = evaluation::evaluate(run, false);
     std::optional<RequirementResult> nearest;
@@ -194,8 +194,8 @@ class Asking {
 
   ExitStatus explain_result(const scenario::Resolved& resolved, RequirementResult result) {
     std::optional<analysis::Bounds> bounds;
-    if (options_.adversarial || options_.bound) bounds = analysis::bound(resolved);
-    const scenario::Scenario* run = &resolved.scenario;
+    if (options_.adversarial || options_.bound) bounds = analysis::bound(resolved, {.interrupted = [&] { return interrupt_.requested(); }});
+    scenario::Scenario run = resolved.scenario;
     std::unique_ptr<scenario::Resolved> worst;
     verify::Search found;
     if (options_.adversarial) {
@@ -205,10 +205,10 @@ class Asking {
       found = verify::search(resolved, *bounds, search);
       const auto of_it = std::ranges::find_if(found.findings, [&](const verify::Finding& each) { return each.requirement.requirement == result.requirement; });
       if (of_it != found.findings.end() && of_it->longest.measured) {
-        run = &of_it->longest.scenario;
+        run = of_it->longest.run.scenario();
         result.measured = of_it->longest.measured;
       }
-      worst = scenario::resolve(*run, diagnostics_);
+      worst = scenario::resolve(run, diagnostics_);
       if (!worst) return refuse();
     }
     const scenario::Resolved& looked_at = worst ? *worst : resolved;
@@ -218,7 +218,7 @@ class Asking {
       explanation_.question += "; there was none";
     else
       explain::explain_measured(looked_at, result, explanation_, [&] { return interrupt_.requested(); });
-    if (options_.bound) add_bound(*bounds, result, *run);
+    if (options_.bound) add_bound(*bounds, result, run);
     return print();
   }
 

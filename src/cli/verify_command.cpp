@@ -22,7 +22,7 @@ namespace {
 struct VerifyOptions {
   ScenarioOptions scenario;
   verify::SearchOptions search;
-  double budget = 60;   // millions of events
+  double budget = static_cast<double>(verify::default_events) / 1e6;   // millions of events
   std::string out;
   std::string report;
   bool quiet = false;
@@ -46,10 +46,10 @@ std::string write_worst(output::WrittenFiles& folder, const verify::Verification
   if (error) return folder.folder() + ": " + error.message();
   for (std::size_t i = 0; i < verification.lines.size(); ++i) {
     const verify::Line& line = verification.lines[i];
-    if (line.worst.name.empty()) continue;
+    if (!line.worst) continue;
     const std::string name = file_name(i, line.requirement);
     files[i] = folder.path_of(name);
-    if (const std::string problem = output::write_file(files[i], json::encode(line.worst)); !problem.empty()) return problem;
+    if (const std::string problem = output::write_file(files[i], json::encode(line.worst.scenario())); !problem.empty()) return problem;
     folder.add(name);
   }
   return {};
@@ -68,7 +68,8 @@ std::string write_witnesses(const std::string& folder, const scenario::Resolved&
 
 ExitStatus status_of(const verify::Verification& verification) {
   switch (verification.verdict()) {
-    case verify::Conclusion::pass: return ExitStatus::pass;
+    case verify::Conclusion::pass:
+    case verify::Conclusion::reported: return ExitStatus::pass;
     case verify::Conclusion::refuted: return ExitStatus::requirement_failed;
     case verify::Conclusion::contradiction: return ExitStatus::internal_error;
     case verify::Conclusion::undecided: break;
@@ -131,9 +132,9 @@ void add_verify_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("verify", "Prove or refute each requirement: simulated, adversarial, bounded");
   const auto options = std::make_shared<VerifyOptions>();
   add_scenario_options(command, options->scenario);
-  command.add_option("--seeds", options->search.seeds, "Runs of the scenario as it is, with its seed and those after it").between(1u, 100'000u).type_name("N");
+  command.add_option("--seeds", options->search.seeds, "Runs of the scenario as it is, with its seed and those after it; two where chance has no say").between(1u, 100'000u).type_name("N");
   command.add_option("--jobs", options->search.jobs, "Threads; the result is the same for any number").between(1u, 256u).type_name("N");
-  command.add_option("--budget", options->budget, "What the search for the worst may cost, in millions of events").between(0.0, 1e6).type_name("M");
+  command.add_option("--budget", options->budget, "What all may cost besides one run of the scenario as it is, in millions of events: runs for the worst, states of the handshake, what would help").between(0.0, 1e6).type_name("M");
   command.add_option("--out", options->out, "Write into this folder, for each requirement, the scenario that replays its worst run").type_name("DIR");
   command.add_option("--report", options->report, "Write a page with pictures into this file: simulated, worst found and bound of each requirement, and what they rest on").type_name("FILE.html");
   command.add_flag("--quiet", options->quiet, "Print one line");

@@ -9,7 +9,7 @@ namespace takt::report {
 
 std::string_view look_of(std::string_view verdict) {
   if (verdict == "pass") return "pass";
-  return verdict == "undecided" ? "undecided" : "fail";
+  return verdict == "undecided" || verdict == "reported" ? "undecided" : "fail";
 }
 
 std::string verdict_line(std::string_view verdict, std::string_view sentence) {

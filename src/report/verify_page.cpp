@@ -21,8 +21,9 @@ std::string sentence(const scenario::Resolved& resolved, const verify::Verificat
   if (verification.contradiction) return name + ": contradiction. This is a mistake of takt; nothing here is to be trusted: " + verification.contradiction->text;
   if (verification.lines.empty()) return name + ": " + results::nothing_was_required;
   const auto count = [&](verify::Conclusion conclusion) { return std::count_if(verification.lines.begin(), verification.lines.end(), [&](const verify::Line& line) { return line.verdict == conclusion; }); };
-  return fmt::format("{}: {}. Of {} requirements {} are proved, {} refuted and {} undecided, after {} runs{}", name, verify::name_of(verification.verdict()), verification.lines.size(),
-                     count(verify::Conclusion::pass), count(verify::Conclusion::refuted), count(verify::Conclusion::undecided), verification.runs, verification.partial ? "; interrupted" : "");
+  const auto reported = count(verify::Conclusion::reported);
+  return fmt::format("{}: {}. Of {} requirements {} are proved, {} refuted and {} undecided{}, after {} runs{}", name, verify::name_of(verification.verdict()), verification.lines.size(),
+                     count(verify::Conclusion::pass), count(verify::Conclusion::refuted), count(verify::Conclusion::undecided), reported > 0 ? fmt::format(", {} reported only", reported) : "", verification.runs, verification.partial ? "; interrupted" : "");
 }
 
 /// As a part of the limit.
@@ -44,6 +45,8 @@ std::string requirements(const verify::Verification& verification, const std::ve
     bar.title = fmt::format("simulated {}, worst found {}, at most {}, limit {}", time_text(line.simulated), time_text(line.adversarial), time_text(line.bound), time_text(line.requirement.limit));
     if (bar.simulated || bar.worst || bar.bound) bars.bars.push_back(bar);
     std::string why = line.verdict == verify::Conclusion::pass ? line.remark : line.reason;
+    if (line.verdict == verify::Conclusion::reported) why = fmt::format("up to {} violation{} in a run", *line.violations, *line.violations == 1 ? "" : "s");
+    if (line.runs > 0) why += fmt::format("{}{} runs: {}", why.empty() ? "" : "; ", line.runs, verify::words_of(line.ended));
     if (!files[i].empty()) why += (why.empty() ? "" : "; ") + ("takt run " + files[i]);
     table.row({{verdict, false, look_of(verdict)}, {line.requirement.text}, {time_text(line.simulated), true}, {time_text(line.adversarial), true}, {time_text(line.bound), true},
                {time_text(line.requirement.limit), true}, {why}});

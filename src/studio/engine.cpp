@@ -95,7 +95,7 @@ void Engine::keep_worst(std::uint64_t revision, const verify::Verification& veri
     json::Diagnostics unused;
     requirements.push_back(line.requirement);
     if (line.adversarial) requirements.back().measured = line.adversarial;
-    worst.push_back(line.adversarial ? scenario::resolve(line.longest, unused) : nullptr);
+    worst.push_back(line.adversarial ? scenario::resolve(line.longest.scenario(), unused) : nullptr);
   }
   const std::lock_guard lock(mutex_);
   if (revision != subject_.revision) return;

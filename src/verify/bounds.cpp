@@ -26,7 +26,7 @@ class Prover {
   Prover(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const ProofOptions& options) : resolved_(resolved), options_(options), bounds_(bounds) {}
 
   Proof of(const RequirementResult& requirement) {
-    if (!requirement.requirement) return invariants(requirement.subject);
+    if (!requirement.requirement) return is_reported_only(requirement.subject) ? reported() : invariants(requirement.subject);
     const RequiredFigure& required = resolved_.requirements[*requirement.requirement];
     const analysis::RequirementBound& bound = bounds_.requirements[*requirement.requirement];
     Proof proof;
@@ -44,6 +44,15 @@ class Prover {
   }
 
  private:
+  bool is_reported_only(const std::string& program) const {
+    return std::ranges::any_of(resolved_.programs, [&](const scenario::ResolvedProgram& each) { return each.name == program && each.description->violations == scenario::Violations::reported; });
+  }
+  static Proof reported() {
+    Proof proof;
+    proof.is_reported_only = true;
+    return proof;
+  }
+
   const analysis::StreamBound* stream_named(const std::string& name) const {
     const auto found = std::find_if(bounds_.streams.begin(), bounds_.streams.end(), [&](const analysis::StreamBound& s) { return s.name == name; });
     return found == bounds_.streams.end() ? nullptr : &*found;
@@ -125,9 +134,12 @@ class Prover {
 
   Proof invariants(const std::string& name) {
     const auto program = std::find_if(resolved_.programs.begin(), resolved_.programs.end(), [&](const scenario::ResolvedProgram& p) { return p.name == name; });
-    const auto unknown = [](std::string why) { return Proof{{}, false, std::move(why), {}, {}, {}}; };
+    const auto unknown = [](std::string why) {
+      Proof proof;
+      proof.reason = std::move(why);
+      return proof;
+    };
     if (program == resolved_.programs.end()) return unknown("no such Program");
-    if (program->description->violations == scenario::Violations::reported) return {{}, true, {}, {}, {}, {}};
     if (!program->nested.empty() || program->has_roles()) return invariants_of(*program);
     const std::size_t slaves = program->members.size() - 1;
     if (slaves > explore::most_slaves) return unknown("at most " + std::to_string(explore::most_slaves) + " slaves can be explored");
@@ -137,6 +149,7 @@ class Prover {
 
   /// Explores what the scenario can bring about: from any state in which the group rests, as many calls and faults as come before it rests again.
   Proof invariants_of(const scenario::ResolvedProgram& program) {
+    Proof proof;
     explore::Query query;
     query.variant = program.description->variant == scenario::Variant::robust ? handshake::Variant::robust : handshake::Variant::paper;
     query.slaves = static_cast<std::uint8_t>(program.members.size() - 1);
@@ -144,7 +157,10 @@ class Prover {
     analysis::EventsInARow row = analysis::events_in_a_row(resolved_, bounds_, number);
     const std::vector<std::uint32_t> tree = tree_of(resolved_, number);
     if (tree.size() > 1 || program.has_roles()) {
-      if (const auto wrong = tree.size() > 1 ? set_tree(resolved_, tree, query) : set_roles(program, query)) return {{}, false, *wrong, {}, {}, {}};
+      if (const auto wrong = tree.size() > 1 ? set_tree(resolved_, tree, query) : set_roles(program, query)) {
+        proof.reason = *wrong;
+        return proof;
+      }
     }
     if (query.has_roles()) {
       // Who has a role at rest depends on all that was before: the whole scenario is one row from the start.
@@ -160,9 +176,10 @@ class Prover {
     if (row.faults > 0) query.faults.insert(explore::Fault::crash);
     if (row.faults > 0 && comes_back) query.faults.insert(explore::Fault::restart);
     query.states = options_.states;
-    if (query.commands > explore::most_commands || query.fault_budget > explore::most_faults)
-      return {{}, false, fmt::format("{} calls and {} faults come before the group is at rest, more than can be explored", row.calls, row.faults), {}, {}, {}};
-    Proof proof;
+    if (query.commands > explore::most_commands || query.fault_budget > explore::most_faults) {
+      proof.reason = fmt::format("{} calls and {} faults come before the group is at rest, more than can be explored", row.calls, row.faults);
+      return proof;
+    }
     proof.assumptions.add(analysis::Assumption::nothing_else);
     if (!resolved_.scenario.faults.empty()) proof.assumptions.add(analysis::Assumption::listed_faults_only);
     for (const auto& [stream, cycle, timeout] : messages_of(tree)) {

@@ -17,6 +17,7 @@ namespace takt::verify {
 struct Proof {
   std::optional<sim::Duration> time;        ///< of requirements about times
   bool holds = false;                       ///< the requirement is always met
+  bool is_reported_only = false;            ///< invariants whose violations the scenario only reports: nothing is proved, and nothing fails
   std::string reason;                       ///< why nothing is proved, else empty
   std::string remark;                       ///< how it is proved, where that is no bound
   analysis::Assumptions assumptions;        ///< what the proof rests on; the ledger says whether it stands

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -12,6 +13,8 @@
 #include "json/fields.hpp"
 #include "json/quantity.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "verify/bounds.hpp"
+#include "verify/probe.hpp"
 
 namespace takt::verify {
 namespace {
@@ -30,60 +33,71 @@ struct Knob {
 
 class Workshop {
  public:
-  Workshop(const scenario::Resolved& resolved, const results::RequirementResult& requirement, const std::function<bool()>& interrupted)
-      : asked_(resolved.scenario), required_(requirement), limit_(*requirement.limit), interrupted_(interrupted) {
+  Workshop(const scenario::Resolved& resolved, const results::RequirementResult& requirement, Budget& budget) : asked_(resolved.scenario), required_(requirement), budget_(budget) {
     const scenario::RequiredFigure& required = resolved.requirements[*requirement.requirement];
     asked_.require = {resolved.scenario.require[required.entry]};   // the others may not make sense any more
-    part_ = required.part;
+    required_.requirement = required.part;
   }
 
   std::optional<Remedy> look(const Knob& knob) {
-    if (knob.values.empty() || !bound_with(knob, knob.values.back())) return std::nullopt;
+    if (knob.values.empty() || !proved_with(knob, knob.values.back())) return std::nullopt;
     std::size_t fails = 0, holds = knob.values.size();   // in numbers from 1; 0: as it is
     while (holds - fails > 1) {
-      if (interrupted_ && interrupted_()) return std::nullopt;
+      if (budget_.is_interrupted()) return std::nullopt;
       const std::size_t middle = (fails + holds) / 2;
-      (bound_with(knob, knob.values[middle - 1]) ? holds : fails) = middle;
+      (proved_with(knob, knob.values[middle - 1]) ? holds : fails) = middle;
     }
-    // Once more, as a file says it.
     const std::int64_t found = knob.values[holds - 1];
-    Scenario changed = asked_;
-    knob.apply(changed, found);
-    json::Diagnostics diagnostics;
-    const auto again = scenario::resolve(changed, diagnostics);
-    const std::optional<Duration> bound = again ? bound_of(*again) : std::nullopt;
+    const std::optional<Duration> bound = tried_with(knob, found);
     if (!bound) return std::nullopt;
-    return Remedy{knob.what, knob.text(found), *bound};
+    return Remedy{knob.what, knob.text(found), *bound, [apply = knob.apply, found](Scenario& changed) { apply(changed, found); }};
   }
 
  private:
-  std::optional<Duration> bound_with(const Knob& knob, std::int64_t value) const {
+  std::unique_ptr<scenario::Resolved> changed_by(const Knob& knob, std::int64_t value) const {
     Scenario changed = asked_;
     knob.apply(changed, value);
     json::Diagnostics diagnostics;
-    const auto resolved = scenario::resolve(std::move(changed), diagnostics);
-    return resolved ? bound_of(*resolved) : std::nullopt;
+    return scenario::resolve(std::move(changed), diagnostics);
   }
-  /// If it is within the limit, and stands.
-  std::optional<Duration> bound_of(const scenario::Resolved& resolved) const {
-    const analysis::Bounds bounds = analysis::bound(resolved);
-    const analysis::RequirementBound& bound = bounds.requirements[part_];
-    if (!bound.duration || *bound.duration > limit_ || !bounds.ledger.objection(bound.assumptions, required_.from).empty()) return std::nullopt;
-    if (required_.taken_as != RequirementKind::reaction && loses(resolved, bounds)) return std::nullopt;
-    return bound.duration;
+
+  bool proved_with(const Knob& knob, std::int64_t value) {
+    if (budget_.left() == 0) return false;
+    const auto resolved = changed_by(knob, value);
+    if (!resolved) return false;
+    const analysis::Bounds bounds = bounds_of(*resolved);
+    return is_proved(*resolved, bounds, bounds.ledger);
   }
-  /// A frame that is lost breaks a latency.
-  bool loses(const scenario::Resolved& resolved, const analysis::Bounds& bounds) const {
-    return std::ranges::any_of(bounds.streams, [&](const analysis::StreamBound& each) {
-      return (each.name == required_.subject || required_.subject == "*") && !each.reaches_all && !scenario::requires_losses_separately(resolved, each.name);
-    });
+
+  analysis::Bounds bounds_of(const scenario::Resolved& resolved) {
+    analysis::Bounds bounds = analysis::bound(resolved, {.interrupted = budget_.interrupted()});
+    budget_.spend(cost_of_bounds(resolved, bounds));
+    return bounds;
+  }
+
+  bool is_proved(const scenario::Resolved& resolved, const analysis::Bounds& bounds, const analysis::AssumptionLedger& ledger) const {
+    if (bounds.is_interrupted) return false;
+    const Proof proof = prove(resolved, bounds, {required_}, {}).front();
+    return proof.holds && proof.time && ledger.objection(proof.assumptions, proof.from).empty();
+  }
+
+  /// The bound of the scenario as a file says it, if it is proved, and if a run of it agrees.
+  std::optional<Duration> tried_with(const Knob& knob, std::int64_t value) {
+    const auto resolved = changed_by(knob, value);
+    if (!resolved) return std::nullopt;
+    const analysis::Bounds bounds = bounds_of(*resolved);
+    const std::optional<Probe> run = probe(resolved->scenario, bounds, budget_.interrupted());
+    if (!run) return std::nullopt;
+    budget_.spend(cost_of_run(*resolved, run->events));
+    analysis::AssumptionLedger ledger = bounds.ledger;
+    for (const Violation& violation : run->violations) ledger.violate(violation.assumption, violation.witness);
+    const bool agrees = run->contradiction.empty() && run->requirements[*required_.requirement].verdict != results::Verdict::fail;
+    return agrees && is_proved(*resolved, bounds, ledger) ? bounds.requirements[*required_.requirement].duration : std::nullopt;
   }
 
   Scenario asked_;
-  std::size_t part_ = 0;   // of that entry
-  const results::RequirementResult& required_;
-  Duration limit_;
-  const std::function<bool()>& interrupted_;
+  results::RequirementResult required_;   // of the scenario that asks for it alone
+  Budget& budget_;
 };
 
 std::vector<std::int64_t> down_from(std::int64_t present, std::int64_t least, std::int64_t step) {
@@ -170,7 +184,7 @@ void leave_out_the_shortest(Knob& knob, Duration present) {
 
 }  // namespace
 
-std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, const std::function<bool()>& interrupted) {
+std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, Budget& budget) {
   if (!requirement.limit || !requirement.requirement) return {};
   const Scenario& scenario = resolved.scenario;
   std::vector<Knob> knobs;
@@ -192,10 +206,10 @@ std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const resul
   if (scenario.gates && scenario.gates->margin && !scenario.gates->margin->is_auto)
     knobs.push_back({"margin of the gates at most", times_below(scenario.gates->margin->value), [](Scenario& changed, std::int64_t value) { changed.gates->margin = json::OrAuto<Duration>(Duration::from_ps(value)); }, as_time});
   knobs.push_back(link_rate(scenario));
-  Workshop workshop(resolved, requirement, interrupted);
+  Workshop workshop(resolved, requirement, budget);
   std::vector<Remedy> found;
   for (const Knob& knob : knobs) {
-    if (interrupted && interrupted()) break;
+    if (budget.is_interrupted() || budget.left() == 0) break;
     if (std::optional<Remedy> remedy = workshop.look(knob)) found.push_back(std::move(*remedy));
   }
   return found;

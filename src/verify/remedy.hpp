@@ -1,4 +1,5 @@
-// What would help: with which other payload, cycle, load, link rate or priority a requirement can be proved that is not as things are; and what takes most of its time.
+// What would help: with which other payload, cycle, load, link rate or priority a requirement can be proved that is not
+// as things are; and what takes most of its time.
 #pragma once
 
 #include <functional>
@@ -7,6 +8,7 @@
 
 #include "results/run_result.hpp"
 #include "scenario/resolve/resolved.hpp"
+#include "verify/budget.hpp"
 
 namespace takt::verify {
 
@@ -15,11 +17,14 @@ struct Remedy {
   std::string what;          ///< "payload of camera at most"
   std::string value;         ///< "812B"
   sim::Duration bound;       ///< with it
+  std::function<void(scenario::Scenario&)> apply = {};   ///< makes the change
 };
 
-/// Looks for each, by bisection over the bound, and bounds the scenario that it found once more, as its file says it. Finds what is monotone: a bound that is no greater with less
-/// payload, load or initialisation, or a faster link. Of a requirement without a limit on a time none.
-std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, const std::function<bool()>& interrupted);
+/// Looks for each, by bisection over what is proved, and tries what it has found as takt verify would: the scenario, as
+/// its file says it, is proved, a run of it meets the requirement, and nothing in that run speaks against
+/// what the proof rests on. Finds what is monotone: a bound that is no greater with less payload, load or
+/// initialisation, or a faster link. Of a requirement without a limit on a time none, nor without a budget.
+std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, Budget& budget);
 
 /// A part of a latency or a reaction.
 struct WeightyPart {
@@ -28,7 +33,8 @@ struct WeightyPart {
   sim::Duration takes;       ///< in all, if it occurs several times
 };
 
-/// Of the run that took so long the three parts that took most of it, greatest first. Nothing if the requirement is about no such time.
+/// Of the run that took so long the three parts that took most of it, greatest first. Nothing if the requirement is
+/// about no such time.
 std::vector<WeightyPart> weightiest_parts(const scenario::Scenario& run, const results::RequirementResult& requirement, sim::Duration measured, const std::function<bool()>& interrupted);
 
 }  // namespace takt::verify

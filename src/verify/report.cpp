@@ -63,8 +63,10 @@ std::string line_text(const Line& line, const std::string& file) {
   if (line.requirement.limit)
     out += fmt::format("             simulated {} <= adversarial {} <= bound {}; limit {}{}\n", figure(line.simulated), figure(line.adversarial), figure(line.bound),
                        figure(line.requirement.limit), line.tightness() ? fmt::format("; tightness {:.0f} %", 100 * *line.tightness()) : "");
+  if (line.verdict == Conclusion::reported) out += fmt::format("             reported only: up to {} violation{} in a run\n", *line.violations, *line.violations == 1 ? "" : "s");
   if (!line.reason.empty() && line.verdict != Conclusion::pass) out += fmt::format("             {}\n", line.reason);
   if (!line.remark.empty() && line.verdict == Conclusion::pass) out += fmt::format("             {}\n", line.remark);
+  if (line.runs > 0 || line.ended == Ended::budget) out += fmt::format("             {} run{} to find the worst: {}\n", line.runs, line.runs == 1 ? "" : "s", words_of(line.ended));
   out += slack_text(line);
   out += help_text(line);
   if (!file.empty()) out += fmt::format("             replay: takt run {}\n", file);
@@ -102,9 +104,10 @@ std::string variable_text(const FreeVariable& variable) {
 }  // namespace
 
 std::string text_report(const std::string& scenario, const Verification& verification, const std::vector<std::string>& files, const Witnesses& witnesses) {
-  std::string out = fmt::format("{}: {} of {} requirements proved, {} runs{}\n\n", scenario,
-                                std::count_if(verification.lines.begin(), verification.lines.end(), [](const Line& line) { return line.verdict == Conclusion::pass; }),
-                                verification.lines.size(), verification.runs, verification.partial ? ", interrupted" : "");
+  const auto count = [&](Conclusion verdict) { return std::ranges::count(verification.lines, verdict, &Line::verdict); };
+  const auto reported = count(Conclusion::reported);
+  std::string out = fmt::format("{}: {} of {} requirements proved{}, {} runs{}\n\n", scenario, count(Conclusion::pass), verification.lines.size() - static_cast<std::size_t>(reported),
+                                reported > 0 ? fmt::format(", {} reported only", reported) : "", verification.runs, verification.partial ? ", interrupted" : "");
   for (std::size_t i = 0; i < verification.lines.size(); ++i) out += line_text(verification.lines[i], files[i]);
   if (!verification.variables.empty()) {
     out += fmt::format("\nFree, hence searched for the worst ({}):\n", verification.variables.size());

@@ -19,6 +19,8 @@ std::optional<Duration> limit(const ReportedLine& row) { return row.line->requir
 std::string verdict(const ReportedLine& row) { return name_of(row.line->verdict); }
 std::optional<double> tightness(const ReportedLine& row) { return row.line->tightness(); }
 std::uint64_t runs(const ReportedLine& row) { return row.line->runs; }
+std::string ended(const ReportedLine& row) { return name_of(row.line->ended); }
+std::optional<std::uint64_t> violations(const ReportedLine& row) { return row.line->violations; }
 bool is_exhaustive(const ReportedLine& row) { return row.line->exhaustive; }
 std::optional<std::string> reason(const ReportedLine& row) { return unless_empty(row.line->reason); }
 std::optional<std::string> remark(const ReportedLine& row) { return unless_empty(row.line->remark); }
@@ -79,10 +81,12 @@ const json::Record& describe(json::Type<ReportedLine>) {
       json::output<&adversarial>("adversarial_ps", "The greatest that the search for the worst run found."),
       json::output<&bound>("bound_ps", "What no run exceeds; null: no bound, or one that does not stand."),
       json::output<&limit>("limit_ps", "What is asked; null where it is no time."),
-      json::output<&verdict>("verdict", "`pass` (proved), `refuted`, `undecided`, or `contradiction` (a mistake of takt)."),
+      json::output<&verdict>("verdict", "`pass` (proved), `refuted`, `undecided`, `contradiction` (a mistake of takt), or `reported` (violations are reported only, so nothing is proved and nothing fails)."),
       json::output<&tightness>("tightness", "adversarial / bound; null without either."),
       json::output<&runs>("runs", "Of the search for this requirement."),
-      json::output<&is_exhaustive>("exhaustive", "All combinations of critical instants were run."),
+      json::output<&ended>("ended", "Why there were no more: `bound_reached` (none can be worse), `all_meetings` (all phases at which frames meet were run), `all_instants` (all combinations of the critical instants that are known were run), `no_worse` (from several beginnings nothing worse was found), `as_it_is` (only the scenario as it is says anything of it), `nothing_free` (all runs are the same), `budget` or `interrupted`."),
+      json::output<&is_exhaustive>("exhaustive", "No run is worse than `adversarial_ps`: nothing but phases of periodic talkers is free, ports send the highest class first and nothing else, and all meetings were run; or all runs are the same."),
+      json::output_if_any<&violations>("violations", "The most that a run had.", "of a Program's invariants"),
       json::output<&reason>("reason", "Why it is not proved; null: it is."),
       json::output<&remark>("remark", "How it is proved, where that is no bound."),
       json::output<&slack>("gives_away", "Where the bound gives away what the worst run does not take; empty where it is tight."),
@@ -117,7 +121,7 @@ const json::Record& describe(json::Type<ReportedContradiction>) {
 const json::Record& describe(json::Type<Report>) {
   static constexpr json::Output outputs[] = {
       json::output<&Report::scenario>("scenario", "Its name."),
-      json::output<&Report::verdict>("verdict", "Of all requirements: the worst; `nothing was required` without one."),
+      json::output<&Report::verdict>("verdict", "Of all requirements: the worst; `reported` if there are only such; `nothing was required` without one."),
       json::output<&Report::runs>("runs", "In all."),
       json::output<&Report::partial>("partial", "It was interrupted."),
       json::output<&Report::free>("free", "What the search for the worst run chooses."),

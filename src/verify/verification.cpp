@@ -6,7 +6,7 @@
 namespace takt::verify {
 
 const char* name_of(Conclusion verdict) {
-  constexpr const char* names[] = {"pass", "refuted", "undecided", "contradiction"};
+  constexpr const char* names[] = {"pass", "refuted", "undecided", "contradiction", "reported"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
@@ -17,12 +17,10 @@ std::optional<double> Line::tightness() const {
 
 Conclusion Verification::verdict() const {
   if (contradiction) return Conclusion::contradiction;
-  Conclusion worst = partial ? Conclusion::undecided : Conclusion::pass;
-  for (const Line& line : lines) {
-    if (line.verdict == Conclusion::refuted) return Conclusion::refuted;
-    if (line.verdict == Conclusion::undecided) worst = Conclusion::undecided;
-  }
-  return worst;
+  const auto is_any = [&](Conclusion verdict) { return std::ranges::any_of(lines, [&](const Line& line) { return line.verdict == verdict; }); };
+  if (is_any(Conclusion::refuted)) return Conclusion::refuted;
+  if (partial || is_any(Conclusion::undecided)) return Conclusion::undecided;
+  return is_any(Conclusion::reported) && !is_any(Conclusion::pass) ? Conclusion::reported : Conclusion::pass;
 }
 
 namespace {
@@ -38,10 +36,16 @@ Line line_of(const Finding& finding, const Proof& proof, const analysis::Assumpt
   line.reason = proof.reason;
   line.remark = proof.remark;
   line.assumptions = proof.assumptions;
-  line.worst = finding.worst.scenario;
-  line.longest = finding.longest.scenario;
+  line.worst = finding.worst.run;
+  line.longest = finding.longest.run;
   line.runs = finding.runs;
+  line.ended = finding.ended;
   line.exhaustive = finding.exhaustive;
+  if (finding.requirement.kind == results::RequirementKind::invariants) line.violations = finding.broken;
+  if (proof.is_reported_only) {
+    line.verdict = Conclusion::reported;
+    return line;
+  }
   if (finding.worst.failed)
     line.verdict = Conclusion::refuted;
   else if (proof.holds && objection.empty())
@@ -60,27 +64,44 @@ void settle(analysis::AssumptionLedger& ledger, const std::vector<Violation>& vi
 /// A proof that stands, of a requirement that a run has failed.
 std::optional<Contradiction> contradiction_of(const Line& line, const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
   if (line.verdict != Conclusion::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
-  // A bound says how long a reaction or a frame takes, not that there is one: a requirement that fails for want of it is refuted, and that is all.
+  // A bound says how long a reaction or a frame takes, not that there is one: a requirement that fails for want of it
+  // is refuted, and that is all.
   if (line.requirement.limit && !finding.worst.measured) return std::nullopt;
   if (line.requirement.figure && !finding.worst.figure) return std::nullopt;   // likewise
-  return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.scenario};
+  return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.run.scenario()};
 }
+
+/// Of the runs that the explanation of a line takes.
+constexpr std::uint64_t replays = 4;
 
 /// What is not tight is looked at again, once nothing speaks against the bounds.
-void add_slack(Verification& result, const analysis::Bounds& bounds, const std::function<bool()>& interrupted) {
+void add_slack(Verification& result, const analysis::Bounds& bounds, Budget& budget, std::uint64_t cost_of_run) {
   if (result.contradiction) return;
-  for (Line& line : result.lines)
-    if (const std::optional<double> tightness = line.tightness(); tightness && !is_tight(line.requirement.kind, *tightness))
-      line.slack = slack_of({line.requirement, *line.adversarial, *line.bound, line.longest}, bounds, interrupted);
+  for (Line& line : result.lines) {
+    const std::optional<double> tightness = line.tightness();
+    if (!tightness || is_tight(line.requirement.kind, *tightness) || budget.is_interrupted() || budget.left() < replays * cost_of_run) continue;
+    budget.spend(replays / 2 * cost_of_run);
+    line.slack = slack_of({line.requirement, *line.adversarial, *line.bound, line.longest.scenario()}, bounds, budget.interrupted());
+  }
 }
 
-void add_help(Verification& result, const scenario::Resolved& resolved, const std::function<bool()>& interrupted) {
+void add_help(Verification& result, const scenario::Resolved& resolved, Budget& budget, std::uint64_t cost_of_run) {
   if (result.contradiction || result.partial) return;
   for (Line& line : result.lines) {
-    if (line.verdict == Conclusion::pass) continue;
-    if (line.adversarial) line.weighty = weightiest_parts(line.longest, line.requirement, *line.adversarial, interrupted);
-    line.remedies = remedies_for(resolved, line.requirement, interrupted);
+    if (line.verdict == Conclusion::pass || line.verdict == Conclusion::reported) continue;
+    if (line.adversarial && budget.left() >= replays * cost_of_run) {
+      budget.spend(replays / 2 * cost_of_run);
+      line.weighty = weightiest_parts(line.longest.scenario(), line.requirement, *line.adversarial, budget.interrupted());
+    }
+    line.remedies = remedies_for(resolved, line.requirement, budget);
   }
+}
+
+/// How many states of the handshake may be looked at: some whatever the budget, and others for twenty events each.
+std::uint64_t states_within(const Budget& budget, std::uint64_t wanted) {
+  constexpr std::uint64_t always = 200'000;
+  constexpr std::uint64_t events_of_a_state = 20;
+  return std::min(wanted, always + budget.left() / events_of_a_state);
 }
 
 }  // namespace
@@ -101,14 +122,26 @@ Verification conclude(Search found, const std::vector<Proof>& proofs, const anal
 }
 
 Verification verify(const scenario::Resolved& resolved, const Options& options) {
-  const analysis::Bounds bounds = analysis::bound(resolved);
-  Search found = search(resolved, bounds, options.search);
+  Budget budget(options.search.events, options.search.interrupted);
+  const analysis::Bounds bounds = analysis::bound(resolved, {.interrupted = options.search.interrupted});
+  if (bounds.is_interrupted) {
+    Verification none;
+    none.ledger = bounds.ledger;
+    none.partial = true;
+    return none;
+  }
+  Search found = search(resolved, bounds, options.search, budget);
+  const std::uint64_t cost_of_run = found.cost_of_run;
   std::vector<results::RequirementResult> requirements;
   for (const Finding& finding : found.findings) requirements.push_back(finding.requirement);
-  const std::vector<Proof> proofs = prove(resolved, bounds, requirements, options.proof);
+  ProofOptions proof = options.proof;
+  proof.states = states_within(budget, proof.states);
+  if (!proof.interrupted) proof.interrupted = options.search.interrupted;
+  const std::vector<Proof> proofs = prove(resolved, bounds, requirements, proof);
   Verification result = conclude(std::move(found), proofs, bounds.ledger);
-  add_slack(result, bounds, options.search.interrupted);
-  if (options.helps) add_help(result, resolved, options.search.interrupted);
+  add_slack(result, bounds, budget, cost_of_run);
+  if (options.helps) add_help(result, resolved, budget, cost_of_run);
+  result.partial = result.partial || budget.is_interrupted();
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "analysis/report.hpp"
 #include "analysis/thread_bound.hpp"
 #include "evaluation/evaluate.hpp"
+#include "explain/ask.hpp"
 #include "json/document.hpp"
 #include "json/quantity.hpp"
 #include "output/text_report.hpp"
@@ -56,6 +57,7 @@ class Checks {
     check("frames", [&] { frames(); });
     check("ways", [&] { ways(); });
     if (r_.scenario.clocks.gptp) check("clocks", [&] { clocks(); });
+    check("lost", [&] { lost(); });
     if (r_.applications.empty()) {
       check("bound", [&] { bounds(); });
       if (options_.verify_events > 0) check("verify", [&] { verification(); });
@@ -304,6 +306,7 @@ class Checks {
     options.search.seeds = 2;
     options.search.events = options_.verify_events;
     options.proof.states = options_.most_states;
+    options.helps = true;
     const verify::Verification found = verify::verify(r_, options);
     static_cast<void>(verify::text_report(r_.scenario.name, found, std::vector<std::string>(found.lines.size())));
     static_cast<void>(verify::json_report(r_.scenario.name, found, std::vector<std::string>(found.lines.size())));
@@ -316,13 +319,53 @@ class Checks {
       if (run.verdict == results::Verdict::fail) expect(line.verdict == verify::Conclusion::refuted, [&] { return run.text + ": a run fails it, verify says " + verify::name_of(line.verdict); });
       if (run.measured && line.simulated) expect(*run.measured <= *line.simulated || run.kind == results::RequirementKind::sync || run.kind == results::RequirementKind::clocks, [&] { return run.text + ": a run measured " + took(*run.measured) + ", verify at most " + took(*line.simulated); });
       if (line.verdict == verify::Conclusion::refuted) replay(i, line);
+      for (const verify::Remedy& remedy : line.remedies) try_remedy(line, remedy);
+      if (const std::string full = "a full queue may drop frames at "; line.reason.starts_with(full)) expect(has_limited_queue(line.reason.substr(full.size())), [&] { return run.text + ": " + line.reason + ", which has no limit"; });
     }
+  }
+
+  /// What is said to help is proved if it is done.
+  void try_remedy(const verify::Line& line, const verify::Remedy& remedy) {
+    const scenario::RequiredFigure& required = r_.requirements[*line.requirement.requirement];
+    scenario::Scenario changed = r_.scenario;
+    changed.require = {r_.scenario.require[required.entry]};
+    remedy.apply(changed);
+    json::Diagnostics diagnostics;
+    const auto again = scenario::resolve(std::move(changed), diagnostics);
+    if (!again) return wrong(remedy.what + " " + remedy.value + " is refused: " + diagnostics.to_text());
+    verify::Options options;
+    options.search.seeds = 2;
+    options.search.events = options_.verify_events;
+    const verify::Verification found = verify::verify(*again, options);
+    expect(found.lines[required.part].verdict == verify::Conclusion::pass, [&] { return line.requirement.text + ": with " + remedy.what + " " + remedy.value + " it is " + verify::name_of(found.lines[required.part].verdict); });
+  }
+
+  /// "sw:1"
+  bool has_limited_queue(const std::string& place) const {
+    const std::size_t colon = place.rfind(':');
+    for (const models::LinkPlan& link : r_.plan.links)
+      for (const models::LinkPlan::End* const end : {&link.a, &link.b}) {
+        const models::NodePlan& node = r_.plan.nodes[end->node.value];
+        if (node.name != place.substr(0, colon) || std::to_string(end->port) != place.substr(colon + 1)) continue;
+        return std::ranges::any_of(r_.plan.port_configs[end->port_config.value_or(node.port_config)].queue_limits, &models::QueueLimit::is_finite);
+      }
+    return false;
+  }
+
+  /// A frame is said to be lost if some stream has lost one, and then of such a stream; where copies are told apart, one that a listener misses.
+  void lost() {
+    const std::vector<explain::ExplainedFrame> frames = explain::explain_frame(r_, {.which = explain::FrameQuestion::Which::lost});
+    const auto has_lost = [](const results::StreamResult& stream) { return stream.lost > 0; };
+    if (frames.empty()) return expect(r_.scenario.warm_up > sim::Duration() || std::ranges::none_of(result_->streams, has_lost), [] { return std::string("a stream has lost frames, and none is explained"); });
+    const auto stream = std::ranges::find(result_->streams, frames.front().stream, &results::StreamResult::name);
+    if (r_.scenario.warm_up > sim::Duration() || stream == result_->streams.end()) return;
+    expect(has_lost(*stream), [&] { return "frame " + std::to_string(frames.front().sequence) + " of " + stream->name + " is said to be lost, and nothing of it is"; });
   }
 
   void replay(std::size_t number, const verify::Line& line) {
     json::Diagnostics diagnostics;
-    if (line.worst.name.empty()) return wrong(line.requirement.text + ": refuted without a run");
-    const auto again = scenario::load_text(json::encode(line.worst), file_, {}, diagnostics);
+    if (!line.worst) return wrong(line.requirement.text + ": refuted without a run");
+    const auto again = scenario::load_text(json::encode(line.worst.scenario()), file_, {}, diagnostics);
     if (!again) return wrong(line.requirement.text + ": its worst run is refused: " + diagnostics.to_text());
     scenario::Run run(*again);
     run.advance();

@@ -29,11 +29,11 @@ TEST(Adversary, MeetsAFrameThatHasJustBegun) {
   const Search found = search(*scenario, analysis::bound(*scenario), {});
   ASSERT_EQ(found.findings.size(), 1u);
   const Finding& finding = found.findings[0];
-  // As it is both begin at 0 and the long one comes later. At worst it has begun 1 ns before: 8 + 1400 + 28 + 18 + 4 + 12 octets of 8 ns.
+  // As it is both begin at 0 and the long one comes later. At worst it has begun 1 ps before: 8 + 1400 + 28 + 18 + 4 + 12 octets of 8 ns.
   const Duration alone = *finding.simulated;
-  EXPECT_EQ(*finding.worst.measured, alone + 1470 * 8_ns - 1_ns);
-  EXPECT_TRUE(finding.exhaustive);
-  const std::optional<Probe> again = probe(finding.worst.scenario, {}, {});
+  EXPECT_EQ(*finding.worst.measured, alone + 1470 * 8_ns - 1_ps);
+  EXPECT_EQ(finding.ended, Ended::bound_reached);
+  const std::optional<Probe> again = probe(finding.worst.run.scenario(), {}, {});
   ASSERT_TRUE(again);
   EXPECT_EQ(again->requirements[0].measured, finding.worst.measured);
 }
@@ -43,9 +43,9 @@ TEST(Adversary, LeavesAloneWhatThePlantPromises) {
   const Search found = search(*scenario, analysis::bound(*scenario), {});
   ASSERT_EQ(found.variables.size(), 1u);
   EXPECT_EQ(found.variables[0].name, "phase of urgent");
-  EXPECT_EQ(found.findings[0].worst.scenario.streams[1].offset, 500_us);
+  EXPECT_EQ(found.findings[0].worst.run.scenario().streams[1].offset, 500_us);
   // The other one moves instead, and meets it.
-  EXPECT_EQ(*found.findings[0].worst.measured, *found.findings[0].simulated + 1470 * 8_ns - 1_ns);
+  EXPECT_EQ(*found.findings[0].worst.measured, *found.findings[0].simulated + 1470 * 8_ns - 1_ps);
 }
 
 // A host's latencies are free within their supports, and so are the instants of cuts: each choice is a scenario that replays.
@@ -69,7 +69,7 @@ TEST(Adversary, ChoosesLatenciesAndInstantsOfFaults) {
   const Search found = search(*scenario, analysis::bound(*scenario), {});
   // 9 us, 154 octets of 8 ns, the cable of 10 m.
   EXPECT_EQ(*found.findings[0].worst.measured, 9_us + 154 * 8_ns + 50_ns);
-  EXPECT_EQ(probe(found.findings[0].worst.scenario, {}, {})->requirements[0].measured, found.findings[0].worst.measured);
+  EXPECT_EQ(probe(found.findings[0].worst.run.scenario(), {}, {})->requirements[0].measured, found.findings[0].worst.measured);
 }
 
 // A halt waits for the master's next publishing at most, then for the network: nothing else is in the way.
@@ -99,7 +99,7 @@ TEST(Adversary, TheSameForAnyNumberOfJobs) {
   EXPECT_EQ(alone.runs, together.runs);
   for (std::size_t i = 0; i < alone.findings.size(); ++i) {
     EXPECT_EQ(alone.findings[i].worst.measured, together.findings[i].worst.measured);
-    EXPECT_EQ(alone.findings[i].worst.scenario, together.findings[i].worst.scenario);
+    EXPECT_EQ(alone.findings[i].worst.run.scenario(), together.findings[i].worst.run.scenario());
   }
 }
 
@@ -122,9 +122,23 @@ TEST(Shortened, KeepsThePhaseOfCallsAndTheirOrder) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ((made.script[i].at - scenario->scenario.script[i].at).ps() % (200_us).ps(), 0);
 }
 
+// Cuts and crashes are events as calls are; what happens while a link is down stays as it is.
+TEST(Shortened, KeepsCutsAsTheyAre) {
+  std::string text = halted;
+  text.insert(text.rfind("\"require\""), R"("faults": [{"kind": "link-down", "link": ["m", "s"], "at": "600.05ms", "for": "50ms"}], )");
+  const auto scenario = resolved(text);
+  const scenario::Scenario made = shortened(scenario->scenario, 1_ms);
+  EXPECT_LT(made.duration, 200_ms);
+  const auto& cut = std::get<scenario::LinkDown>(made.faults[0]);
+  EXPECT_EQ(cut.lasts, 50_ms);
+  EXPECT_GT(cut.at, made.script[1].at + 8_ms);
+  EXPECT_EQ(cut.at.ps() % (200_us).ps(), (50_us).ps());
+  EXPECT_GT(made.duration, cut.at + 50_ms);
+}
+
 TEST(Shortened, LeavesAloneWhatDependsOnItsTimes) {
   std::string text = halted;
-  text.insert(text.rfind("\"require\""), R"("faults": [{"kind": "link-down", "link": ["m", "s"], "at": "600ms", "for": "1ms"}], )");
+  text.insert(text.rfind("\"require\""), R"("clocks": {"all": {"offset": "5ppm"}}, )");
   const auto scenario = resolved(text);
   EXPECT_EQ(shortened(scenario->scenario, 1_ms), scenario->scenario);
   // So does what counts from an instant on.
@@ -152,8 +166,8 @@ TEST(Adversary, ChoosesProductionJitterWithinItsSupport) {
   const Duration alone = 2 * (154 * 8_ns + 50_ns);
   EXPECT_GE(*found.findings[0].worst.measured, alone + 1470 * 8_ns - 1_ns);
   EXPECT_LE(*found.findings[0].worst.measured, *bounds.streams[0].latency);
-  EXPECT_EQ(found.findings[0].worst.scenario.streams[0].jitter, Duration());
-  EXPECT_EQ(probe(found.findings[0].worst.scenario, {}, {})->requirements[0].measured, found.findings[0].worst.measured);
+  EXPECT_EQ(found.findings[0].worst.run.scenario().streams[0].jitter, Duration());
+  EXPECT_EQ(probe(found.findings[0].worst.run.scenario(), {}, {})->requirements[0].measured, found.findings[0].worst.measured);
 }
 
 // Which frames a link loses is chosen, as far as "dropped" leaves room: one period of losses and no others, replayed by a fault of its own.
@@ -170,7 +184,7 @@ TEST(Adversary, ChoosesLossesWithinWhatIsRequired) {
   EXPECT_TRUE(std::any_of(variables.begin(), variables.end(), [](const FreeVariable& each) { return each.name == "losses by fault 1" && each.range == 10_ms; }));
   const Search found = search(*scenario, analysis::bound(*scenario), {});
   EXPECT_GT(*found.findings[0].worst.measured, *found.findings[0].simulated + 900_us);   // the word that tells it is lost, and comes a cycle later
-  EXPECT_EQ(probe(found.findings[0].worst.scenario, {}, {})->requirements[0].measured, found.findings[0].worst.measured);
+  EXPECT_EQ(probe(found.findings[0].worst.run.scenario(), {}, {})->requirements[0].measured, found.findings[0].worst.measured);
   const auto strict = resolved(text + R"(, {"stream": "p/state/m", "dropped": 0}]})");
   ASSERT_TRUE(strict);
   const Search none = search(*strict, analysis::bound(*strict), {});

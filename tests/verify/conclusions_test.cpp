@@ -1,6 +1,7 @@
 // What follows from runs and proofs, with each of them made by hand: no scenario of takt shows a proof that is wrong.
 #include <gtest/gtest.h>
 
+#include "verify/report.hpp"
 #include "verify/verification.hpp"
 
 namespace takt::verify::conclusions_test {
@@ -24,7 +25,9 @@ struct Case {
     finding.requirement.limit = 10_us;
     finding.simulated = finding.worst.measured = finding.longest.measured = seen;
     finding.worst.failed = !seen || *seen > 10_us;
-    finding.worst.scenario.name = "worst";
+    Ground ground;
+    ground.whole.name = "worst";
+    finding.worst.run = {std::make_shared<const Ground>(ground), std::make_shared<const Choice>()};
     found.findings.push_back(finding);
     proofs[0].time = bound;
     proofs[0].holds = bound && *bound <= 10_us;
@@ -94,6 +97,28 @@ TEST(Conclusions, WantOfAFrameIsNoContradiction) {
   const Verification found = Case({}, 9_us).concluded();
   EXPECT_EQ(found.lines[0].verdict, Conclusion::refuted);
   EXPECT_FALSE(found.contradiction);
+}
+
+// Violations that are reported only are no failure, and no proof: how many a run had is said.
+TEST(Conclusions, ReportedOnlyIsAVerdictOfItsOwn) {
+  Case all(8_us, 9_us);
+  Finding finding;
+  finding.requirement.kind = results::RequirementKind::invariants;
+  finding.requirement.text = "program p keeps S1 to S5 (reported only)";
+  finding.broken = 3;
+  all.found.findings.push_back(finding);
+  all.proofs.emplace_back().is_reported_only = true;
+  const Verification found = all.concluded();
+  EXPECT_EQ(found.lines[1].verdict, Conclusion::reported);
+  EXPECT_EQ(found.lines[1].violations, 3u);
+  EXPECT_FALSE(found.lines[0].violations);
+  EXPECT_EQ(found.verdict(), Conclusion::pass) << "of what is asked";
+  const std::string page = text_report("s", found, {"", ""});
+  EXPECT_NE(page.find("1 of 1 requirements proved, 1 reported only"), std::string::npos) << page;
+  EXPECT_NE(page.find("reported only: up to 3 violations in a run"), std::string::npos) << page;
+  Verification alone = found;
+  alone.lines.erase(alone.lines.begin());
+  EXPECT_EQ(alone.verdict(), Conclusion::reported);
 }
 
 TEST(Conclusions, TheWorstLineIsTheVerdict) {

@@ -57,6 +57,42 @@ TEST(Remedies, OfTheEntryThatAsksForTheFigure) {
   EXPECT_EQ(of_refuted, (std::vector<std::string>{"payload of s at most 560B", "rate of all links at least 2.5Gbps"}));
 }
 
+// An exact latency of 8 us: with 939 octets the bound is within it, but no frame takes so long (7.994 us); at 2.5 Gbit/s none does either. A bound that is within the limit is not enough.
+TEST(Remedies, NoneThatWouldBeRefuted) {
+  json::Diagnostics diagnostics;
+  const auto scenario = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/hint-of-an-exact-latency.json", {}, diagnostics);
+  ASSERT_TRUE(scenario) << diagnostics.to_text();
+  Options options = small();
+  options.helps = true;
+  const Verification found = verify(*scenario, options);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::refuted);
+  EXPECT_TRUE(found.lines[0].remedies.empty()) << found.lines[0].remedies[0].what << " " << found.lines[0].remedies[0].value;
+}
+
+// What is said is taken at its word: each change, made by hand, is proved by takt verify.
+TEST(Remedies, EachIsProvedWhenItIsTried) {
+  const std::string text = R"({"name": "busy", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"}, "c": {"kind": "host", "os": "none"}, "s": {"kind": "switch"}},
+    "links": [{"ends": ["a", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"}, {"ends": ["c", "s"], "rate": "100Mbps"}]},
+    "streams": [{"name": "x", "from": "a", "to": "c", "payload": "500B", "every": "1ms", "pcp": 3}, {"name": "y", "from": "b", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3}],
+    "require": [{"stream": "x", "latency": "130us"}]})";
+  Options options = small();
+  options.helps = true;
+  const Verification found = verify(*resolved(text), options);
+  ASSERT_NE(found.lines[0].verdict, Conclusion::pass);
+  ASSERT_FALSE(found.lines[0].remedies.empty());
+  for (const Remedy& remedy : found.lines[0].remedies) {
+    std::vector<std::string> sets;
+    if (remedy.what.starts_with("payload")) sets = {"/streams/0/payload=" + remedy.value};
+    if (remedy.what.starts_with("priority")) sets = {"/streams/0/pcp=" + remedy.value.substr(4)};
+    if (remedy.what.starts_with("rate")) sets = {"/network/links/0/rate=" + remedy.value, "/network/links/1/rate=" + remedy.value, "/network/links/2/rate=" + remedy.value};
+    if (sets.empty()) continue;
+    json::Diagnostics diagnostics;
+    const auto changed = scenario::load_text(text, "test", sets, diagnostics);
+    ASSERT_TRUE(changed) << diagnostics.to_text();
+    EXPECT_EQ(verify(*changed, small()).lines[0].verdict, Conclusion::pass) << remedy.what << " " << remedy.value;
+  }
+}
+
 TEST(Remedies, NoneOfWhatIsProvedOrNotAskedFor) {
   EXPECT_TRUE(verify(*resolved(alone), small()).lines[0].remedies.empty());
   std::string proved = alone;

@@ -8,7 +8,8 @@ namespace {
 
 /// "takt 0.1.0, behaviour 3, revision 26f987b12345", and what this build has and has not.
 std::string version_text() {
-  std::string text = std::string("takt ") + takt::results::version + ", behaviour " + std::to_string(takt::results::behaviour());
+  std::string text =
+      std::string("takt ") + takt::results::version + ", behaviour " + std::to_string(takt::results::behaviour());
   if (*takt::cli::revision != '\0') text += std::string(", revision ") + takt::cli::revision;
   return text + (*takt::cli::features == '\0' ? "" : "\n") + takt::cli::features;
 }

@@ -1,10 +1,10 @@
 #include "cli/load.hpp"
 
+#include <cstdio>
+
 #include "cli/input_kind.hpp"
 #include "cli/terminal.hpp"
 #include "output/written_files.hpp"
-
-#include <cstdio>
 
 namespace takt::cli {
 

@@ -23,7 +23,8 @@ struct ScenarioOptions {
 /// Adds SCENARIO, --seed, --duration, --set and --format.
 void add_scenario_options(Command command, ScenarioOptions& options);
 
-/// A warning on standard error if files.json beside the file says that a takt with another number of behaviour wrote it.
+/// A warning on standard error if files.json beside the file says that a takt with another number of behaviour wrote
+/// it.
 void warn_of_another_maker(const std::string& file);
 
 /// Loads the scenario. Diagnostics go to standard error as text, or to standard output as JSON with --format json. Null if there

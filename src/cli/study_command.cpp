@@ -131,7 +131,9 @@ ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::R
     return ExitStatus::internal_error;
   }
   print(study::text_of(plan, *question, finding));
-  return finding.interrupted ? ExitStatus::interrupted : finding.level ? ExitStatus::pass : ExitStatus::requirement_failed;
+  return finding.interrupted ? ExitStatus::interrupted
+         : finding.level()   ? ExitStatus::pass
+                             : ExitStatus::requirement_failed;
 }
 
 ExitStatus run(const StudyOptions& options) {

@@ -10,7 +10,6 @@
 #include "evaluation/collect_streams.hpp"
 #include "evaluation/judge.hpp"
 #include "results/result_json.hpp"
-#include "results/behaviour.hpp"
 #include "results/version.hpp"
 #include "scenario/run/accounts.hpp"
 #include "scenario/topology/graph_figures.hpp"
@@ -168,7 +167,6 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   const scenario::Scenario& scenario = run.resolved().scenario;
   RunResult result;
   result.version = version;
-  result.behaviour = behaviour();
   result.scenario = scenario.name;
   result.seed = scenario.seed;
   result.simulated = run.simulation().now().since_start();

@@ -35,7 +35,9 @@ std::string text_of(const json::Node& object, std::string_view key) {
 std::uint32_t number_of(const json::Node& object, std::string_view key) {
   const json::Node* const found = object.find(key);
   const auto number = found != nullptr && found->kind == json::Kind::number ? json::integer_of(*found) : std::nullopt;
-  return number && *number > 0 && *number <= std::numeric_limits<std::uint32_t>::max() ? static_cast<std::uint32_t>(*number) : 0;
+  return number && *number > 0 && *number <= std::numeric_limits<std::uint32_t>::max()
+             ? static_cast<std::uint32_t>(*number)
+             : 0;
 }
 
 const std::vector<json::Node>& items_of(const json::Node& object, std::string_view key) {
@@ -88,7 +90,11 @@ std::vector<WrittenFiles::Entry> WrittenFiles::entries_in(const std::string& fol
   if (!document || document->root().kind != json::Kind::object) return {};
   std::vector<Entry> entries;
   for (const json::Node& node : items_of(document->root(), "written")) {
-    Entry entry{text_of(node, "command"), {text_of(node, "takt"), number_of(node, "behaviour")}, text_of(node, "scenario"), text_of(node, "digest"), {}};
+    Entry entry{text_of(node, "command"),
+                {text_of(node, "takt"), number_of(node, "behaviour")},
+                text_of(node, "scenario"),
+                text_of(node, "digest"),
+                {}};
     for (const json::Node& file : items_of(node, "files"))
       if (file.kind == json::Kind::string && is_plain(file.text)) entry.files.push_back(file.text);
     entries.push_back(std::move(entry));
@@ -176,15 +182,21 @@ std::string WrittenFiles::summary() const {
   if (!open.empty()) text += "To open: " + open + "\n";
   if (!removed_.empty()) text += "Removed, of an older run: " + shortened(removed_) + "\n";
   for (const Entry& other : others_)
-    if (const std::string difference = other.files.empty() ? std::string() : results::difference_to(other.maker, fmt::format("What takt {} wrote there", other.command)); !difference.empty())
+    if (const std::string difference =
+            other.files.empty()
+                ? std::string()
+                : results::difference_to(other.maker, fmt::format("What takt {} wrote there", other.command));
+        !difference.empty())
       text += difference + ": do not compare it with these files, make it anew\n";
   return text;
 }
 
 std::string made_by_another(const std::string& file) {
   const fs::path path(file);
-  for (const WrittenFiles::Entry& entry : WrittenFiles::entries_in(path.has_parent_path() ? path.parent_path().string() : "."))
-    if (std::ranges::find(entry.files, path.filename().string()) != entry.files.end()) return results::difference_to(entry.maker, file);
+  for (const WrittenFiles::Entry& entry :
+       WrittenFiles::entries_in(path.has_parent_path() ? path.parent_path().string() : "."))
+    if (std::ranges::find(entry.files, path.filename().string()) != entry.files.end())
+      return results::difference_to(entry.maker, file);
   return {};
 }
 

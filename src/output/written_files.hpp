@@ -56,7 +56,8 @@ class WrittenFiles {
   std::vector<std::string> removed_;
 };
 
-/// A sentence with both numbers of behaviour if files.json beside the file says that another takt wrote it. Empty: this one did, or nothing is known.
+/// A sentence with both numbers of behaviour if files.json beside the file says that another takt wrote it. Empty: this
+/// one did, or nothing is known.
 std::string made_by_another(const std::string& file);
 
 /// How people look at a file, by its name: "in ui.perfetto.dev". Empty: in no way of its own.

@@ -400,23 +400,49 @@ PYBIND11_MODULE(_takt, m) {
   py::class_<study::Content, ContentPointer>(m, "Content")
       .def_property_readonly("name", [](const study::Content& c) { return c.header.name; })
       .def_property_readonly("behaviour", [](const study::Content& c) { return c.header.maker.behaviour; })
-      .def("difference", [](const study::Content& c, const std::string& path) { return results::difference_to(c.header.maker, path); })
-      .def_property_readonly("factors", [](const study::Content& c) { std::vector<std::string> names; for (const auto& f : c.factors) names.push_back(f.name); return names; })
-      .def_property_readonly("measures", [](const study::Content& c) { std::vector<std::string> names; for (const auto& f : c.measures) names.push_back(f.name); return names; })
+      .def("difference", [](const study::Content& c,
+                            const std::string& path) { return results::difference_to(c.header.maker, path); })
+      .def_property_readonly("factors",
+                             [](const study::Content& c) {
+                               std::vector<std::string> names;
+                               for (const auto& f : c.factors) names.push_back(f.name);
+                               return names;
+                             })
+      .def_property_readonly("measures",
+                             [](const study::Content& c) {
+                               std::vector<std::string> names;
+                               for (const auto& f : c.measures) names.push_back(f.name);
+                               return names;
+                             })
       .def_property_readonly("passes", [](const study::Content& c) { return c.passes; })
-      .def_property_readonly("status", [](const study::Content& c) { std::vector<std::string> names; for (const auto s : c.status) names.emplace_back(study::name_of(s)); return names; })
+      .def_property_readonly("status",
+                             [](const study::Content& c) {
+                               std::vector<std::string> names;
+                               for (const auto s : c.status) names.emplace_back(study::name_of(s));
+                               return names;
+                             })
       .def("replication", [](const ContentPointer& c) { return column(c->replication, c); })
       .def("factor", &factor_of)
-      .def("measure", [](const ContentPointer& c, const std::string& name) { return column(c->measures[number_of(c->measures, name, "measure")].values, c); })
-      .def("unit", [](const study::Content& c, const std::string& name) { return c.measures[number_of(c.measures, name, "measure")].unit; })
+      .def("measure",
+           [](const ContentPointer& c, const std::string& name) {
+             return column(c->measures[number_of(c->measures, name, "measure")].values, c);
+           })
+      .def("unit", [](const study::Content& c,
+                      const std::string& name) { return c.measures[number_of(c.measures, name, "measure")].unit; })
       .def("summary", [](const study::Content& c) { return study::text_summary(c); })
       .def("report", [](const study::Content& c) { return study::html_report(c); })
-      .def("heatmap", [](const study::Content& c, const std::string& rows, const std::string& columns, const std::string& measure) {
-        return figure(study::heat_map_chart(c, number_of(c.factors, rows, "factor"), number_of(c.factors, columns, "factor"), number_of(c.measures, measure, "measure")));
-      })
-      .def("effect", [](const study::Content& c, const std::string& factor, const std::string& measure) {
-        return figure(study::main_effect_chart(c, number_of(c.factors, factor, "factor"), number_of(c.measures, measure, "measure")));
-      })
+      .def(
+          "heatmap",
+          [](const study::Content& c, const std::string& rows, const std::string& columns, const std::string& measure) {
+            return figure(study::heat_map_chart(c, number_of(c.factors, rows, "factor"),
+                                                number_of(c.factors, columns, "factor"),
+                                                number_of(c.measures, measure, "measure")));
+          })
+      .def("effect",
+           [](const study::Content& c, const std::string& factor, const std::string& measure) {
+             return figure(study::main_effect_chart(c, number_of(c.factors, factor, "factor"),
+                                                    number_of(c.measures, measure, "measure")));
+           })
       .def("pareto", [](const study::Content& c, const std::string& a, const std::string& b) {
         return figure(study::pareto_chart(c, number_of(c.measures, a, "measure"), number_of(c.measures, b, "measure")));
       });

@@ -12,6 +12,7 @@
 #include "output/text_report.hpp"
 #include "report/network_figure.hpp"
 #include "report/page_parts.hpp"
+#include "results/behaviour.hpp"
 
 namespace takt::report {
 namespace {
@@ -37,7 +38,7 @@ std::string head(const RunResult& result) {
   table.row({{"seed"}, {std::to_string(result.seed)}});
   table.row({{"digest"}, {fmt::format("{:016x}", result.digest)}});
   table.row({{"events"}, {std::to_string(result.events)}});
-  table.row({{"takt"}, {result.version + ", behaviour " + std::to_string(result.behaviour)}});
+  table.row({{"takt"}, {result.version + ", behaviour " + std::to_string(results::behaviour())}});
   return table.take();
 }
 

@@ -187,7 +187,6 @@ struct QueueResult {
 
 struct RunResult {
   std::string version;
-  std::uint32_t behaviour = 0;             ///< of the takt that ran it (behaviour.hpp)
   std::string scenario;
   std::uint64_t seed = 0;
   Duration simulated;

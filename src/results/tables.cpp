@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "json/record.hpp"
+#include "results/behaviour.hpp"
 #include "results/run_result.hpp"
 
 namespace takt::results {
@@ -17,6 +18,7 @@ const char* name_of(Verdict verdict) {
 
 namespace {
 
+std::uint32_t behaviour_of(const RunResult&) { return behaviour(); }  // results are written by the takt that ran them
 std::string digest_text(const RunResult& result) { return fmt::format("{:016x}", result.digest); }
 std::string verdict_text(const RunResult& result) { return result.nothing_required ? nothing_was_required : name_of(result.verdict); }
 
@@ -137,37 +139,59 @@ const json::Record& describe(json::Type<QueueResult>) {
 const json::Record& describe(json::Type<RunResult>) {
   static constexpr json::Output outputs[] = {
       json::output<&RunResult::version>("takt", "The version of takt."),
-      json::output<&RunResult::behaviour>("behaviour", "The number of behaviour of takt: figures of one scenario and seed can be compared where it is the same."),
+      json::output<&behaviour_of>(
+          "behaviour",
+          "The number of behaviour of takt: figures of one scenario and seed can be compared where it is the same."),
       json::output<&RunResult::scenario>("scenario", "Its name."),
       json::output<&RunResult::seed>("seed", "The seed of all that is random."),
       json::output<&RunResult::simulated>("simulated_ps", "How far the run came."),
       json::output<&RunResult::partial>("partial", "It was interrupted."),
       json::output<&digest_text>("digest",
-                                 "16 hex digits over what happened: every production, delivery (with its age) and loss (with its reason) of a frame, every transition, word and call of a Program, "
-                                 "faults and the rest of the script, what clocks did. Equal for equal scenario and seed on every machine; runs that differ in any of it have another one."),
+                                 "16 hex digits over what happened: every production, delivery (with its age) and loss "
+                                 "(with its reason) of a frame, every transition, word and call of a Program, "
+                                 "faults and the rest of the script, what clocks did. Equal for equal scenario and "
+                                 "seed on every machine; runs that differ in any of it have another one."),
       json::output<&RunResult::events>("events", "Events handled."),
-      json::output_if_any<&RunResult::from>("from_ps", "The figures are of what began then or later.", "with `warm_up`"),
+      json::output_if_any<&RunResult::from>("from_ps", "The figures are of what began then or later.",
+                                            "with `warm_up`"),
       json::output<&verdict_text>("verdict",
-                                  "`pass`, `fail`, `undecided` for a partial run that has not failed and for clocks that follow several grandmasters, or `nothing was required` (exit status 0) where neither the scenario nor a Program asks for "
+                                  "`pass`, `fail`, `undecided` for a partial run that has not failed and for clocks that "
+                                  "follow several grandmasters, or `nothing was "
+                                  "required` (exit status 0) where neither the scenario nor a Program asks for "
                                   "anything.",
                                   {.is_judgement = true}),
       json::output<&RunResult::requirements>("requirements", "What was required.", {.is_judgement = true}),
-      json::outputs_by_name<&RunResult::streams, &StreamResult::name>("streams", "What became of frames.", {.keys = "stream"}),
-      json::outputs_by_name<&RunResult::programs, &ProgramResult::name>("programs", "What Programs did.", {.keys = "program"}),
-      json::only_if<&has_applications>(json::outputs_by_name<&RunResult::applications, &ApplicationResult::name>("applications", "What applications, gateways and persistence services did.", {.keys = "application"}),
-                                       "where there are some"),
-      json::only_if<&has_cpus>(json::outputs_by_name<&RunResult::cpus, &CpuResult::node>("cpus", "What the processors of hosts did.", {.keys = "node"}), "where there are some"),
-      json::only_if<&has_signals>(json::outputs_by_name<&RunResult::signals, &SignalResult::name>("signals", "What digital outputs did.", {.keys = "signal"}), "where there are some"),
-      json::output<&RunResult::ports>("ports", "Egress ports that sent or dropped something.", {.counts_from_start = true}),
-      json::output<&RunResult::queues>("queues", "Queues of traffic classes in which frames have waited.", {.counts_from_start = true}),
-      json::output<&RunResult::dropped>("dropped", "Frames that were dropped in the whole network, by reason; only reasons that occurred.", {.keys = "reason", .is_zero_if_absent = true}),
+      json::outputs_by_name<&RunResult::streams, &StreamResult::name>("streams", "What became of frames.",
+                                                                      {.keys = "stream"}),
+      json::outputs_by_name<&RunResult::programs, &ProgramResult::name>("programs", "What Programs did.",
+                                                                        {.keys = "program"}),
+      json::only_if<&has_applications>(
+          json::outputs_by_name<&RunResult::applications, &ApplicationResult::name>(
+              "applications", "What applications, gateways and persistence services did.", {.keys = "application"}),
+          "where there are some"),
+      json::only_if<&has_cpus>(json::outputs_by_name<&RunResult::cpus, &CpuResult::node>(
+                                   "cpus", "What the processors of hosts did.", {.keys = "node"}),
+                               "where there are some"),
+      json::only_if<&has_signals>(json::outputs_by_name<&RunResult::signals, &SignalResult::name>(
+                                      "signals", "What digital outputs did.", {.keys = "signal"}),
+                                  "where there are some"),
+      json::output<&RunResult::ports>("ports", "Egress ports that sent or dropped something.",
+                                      {.counts_from_start = true}),
+      json::output<&RunResult::queues>("queues", "Queues of traffic classes in which frames have waited.",
+                                       {.counts_from_start = true}),
+      json::output<&RunResult::dropped>(
+          "dropped", "Frames that were dropped in the whole network, by reason; only reasons that occurred.",
+          {.keys = "reason", .is_zero_if_absent = true}),
       json::output<&RunResult::clocks>("clocks", "Nodes with gPTP."),
       json::output<&RunResult::grandmasters>("grandmasters", "Who gave the time when: the first 4096 changes.", {.counts_from_start = true}),
       json::output<&RunResult::gptp_links>("gptp_links", "Ports of nodes with gPTP.", {.counts_from_start = true}),
       json::outputs_by_name<&RunResult::clock_differences, &ClockDifferenceResult::name>(
           "clock_differences", "How far clocks were apart: of `all` nodes, of those that `ways` of streams join (with a number where streams leave the network in several parts), and of those that a requirement names.", {.keys = "nodes"}),
-      json::outputs_by_name<&RunResult::ingress, &IngressResult::node>("ingress", "The ingress of switches that have met a frame, with names and meanings of IEEE 802.1Q 8.6.5.", {.keys = "node", .counts_from_start = true}),
-      json::output<&RunResult::redundancy>("redundancy", "Splitting and joining of streams (IEEE 802.1CB 10).", {.counts_from_start = true}),
+      json::outputs_by_name<&RunResult::ingress, &IngressResult::node>(
+          "ingress", "The ingress of switches that have met a frame, with names and meanings of IEEE 802.1Q 8.6.5.",
+          {.keys = "node", .counts_from_start = true}),
+      json::output<&RunResult::redundancy>("redundancy", "Splitting and joining of streams (IEEE 802.1CB 10).",
+                                           {.counts_from_start = true}),
   };
   static constexpr json::Record record{"result", "A run.", outputs};
   return record;

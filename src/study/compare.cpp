@@ -73,7 +73,7 @@ bool has_values(const Summary& summary) { return summary.count > 0; }
 }  // namespace
 
 Plan plain_plan(json::Document base, std::uint32_t replications, std::uint64_t first_seed) {
-  Plan plan{{}, std::move(base), {}, {}, {}, {Variant()}, {}, 0};
+  Plan plan{{}, std::move(base), {}, {}, {}, {Variant()}, {}, 0, false};
   plan.study.replications = {replications, first_seed};
   json::Diagnostics none;
   for (const char* const figure : compared_figures) {
@@ -196,7 +196,8 @@ const json::Record& describe(json::Type<Comparison>) {
       json::output<&Comparison::b>("b", "The other one."),
       json::output<&Comparison::pairs>("pairs", "Pairs of runs, each with one seed for both."),
       json::output<&Comparison::same_digest>("same_digest", "Those that are the same run."),
-      json::outputs_by_name<&Comparison::measures, &ComparedMeasure::name>("measures", "Those that any run has.", {.keys = "measure"}),
+      json::outputs_by_name<&Comparison::measures, &ComparedMeasure::name>("measures", "Those that any run has.",
+                                                                           {.keys = "measure"}),
       json::output<&Comparison::troubles>("troubles", "Runs without a result, and why: the first ten."),
       json::output<&Comparison::divergence>("divergence", "Null if no runs differ."),
   };

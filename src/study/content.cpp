@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "json/document.hpp"
 #include "study/sql.hpp"
 
 namespace takt::study {
@@ -27,6 +28,10 @@ void read_factors(sqlite3* database, Content& content) {
 void read_measures(sqlite3* database, Content& content) {
   Statement measures(database, "SELECT name, unit FROM measure ORDER BY id");
   while (measures.step()) content.measures.push_back({measures.text(0), measures.text(1), true, {}, false});
+  Statement bases(database, "SELECT measure, name FROM basis");  // older stores have none, and figures of runs alone
+  while (bases.step())
+    if (const auto m = static_cast<std::size_t>(bases.integer(0)); m < content.measures.size())
+      content.measures[m].basis = basis_named(bases.text(1)).value_or(Basis::run);
   Statement limits(database, "SELECT measure, is_upper, value, text FROM limits ORDER BY id");
   while (limits.step()) {
     PlannedLimit limit{{limits.integer(1) != 0 ? scenario::Relation::at_most : scenario::Relation::at_least, limits.real(2).value_or(0), limits.text(3)}, static_cast<std::size_t>(limits.integer(0))};
@@ -35,6 +40,17 @@ void read_measures(sqlite3* database, Content& content) {
     content.measures[limit.measure].is_limited = true;
     content.limits.push_back(std::move(limit));
   }
+}
+
+/// What the configuration says of phases and of the search for worst runs.
+void read_manner(Content& content) {
+  json::Diagnostics ignored;
+  const auto document = json::parse(content.header.configuration, "configuration", ignored);
+  if (!document || document->root().kind != json::Kind::object) return;
+  const json::Node* const verify = document->root().find("verify");
+  const json::Node* const budget = verify != nullptr ? verify->find("budget") : nullptr;
+  if (budget != nullptr) content.budget = json::double_of(*budget);
+  content.is_of_schedules = document->root().find("schedule") != nullptr;
 }
 
 bool read_variants(sqlite3* database, Content& content) {
@@ -87,6 +103,7 @@ std::unique_ptr<Content> read_store(const std::string& path, std::string& proble
   if (!store) return nullptr;
   auto content = std::make_unique<Content>();
   content->header = store->header();
+  read_manner(*content);
   read_factors(store->handle(), *content);
   read_measures(store->handle(), *content);
   if (read_variants(store->handle(), *content) && read_points(store->handle(), *content)) return content;

@@ -28,6 +28,7 @@ struct ContentMeasure {
   bool lower_is_better = true;          ///< unless a limit says "at_least"
   std::vector<double> values;           ///< by row; NaN: missing
   bool is_limited = false;              ///< a limit says which is better
+  Basis basis = Basis::run;             ///< whose figures they are
 };
 
 /// A point without a result.
@@ -51,6 +52,8 @@ struct Content {
   std::vector<std::string> verdict;
   std::vector<Trouble> troubles;
   double cpu_seconds = 0;
+  double budget = Verifying{}.budget;  ///< of the search for worst runs, in millions of events a point
+  bool is_of_schedules = false;
 
   std::size_t rows() const { return variant.size(); }
   /// The point's number.

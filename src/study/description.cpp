@@ -138,10 +138,17 @@ const json::Object& describe(json::Type<Design>) {
 const json::Object& describe(json::Type<Measure>) {
   static constexpr json::Field fields[] = {
       required<&Measure::name>("name", "Unique; letters, digits and _.", {.min_length = 1, .max_length = 60}),
-      required<&Measure::of>("of", "A JSON pointer into result.json, * for every member; or a short form such as reaction.start.max. Of a study of schedules: scheduled, infeasible, undecided, left_over, busiest_link, normalised_latency or waiting.", {.min_length = 2, .max_length = 1000}),
+      required<&Measure::of>(
+          "of",
+          "A JSON pointer into result.json, * for every member; or a short form such as reaction.start.max. Of the "
+          "verification of the variant: worst.X and bound.X, where X is a greatest latency or reaction "
+          "(worst.reaction.halt.max), and verdict (1: proved, 0: refuted, none: undecided). Of a study of schedules: "
+          "scheduled, infeasible, undecided, left_over, busiest_link, normalised_latency or waiting.",
+          {.min_length = 2, .max_length = 1000}),
       optional<&Measure::only>("only", "Members that objects on the way must have."),
       optional<&Measure::take>("take", "What is taken if there are several values."),
-      optional<&Measure::unit>("unit", "ps, ns, us, ms or s for times, % for shares, otherwise a label.", {.max_length = 20}),
+      optional<&Measure::unit>("unit", "ps, ns, us, ms or s for times, % for shares, otherwise a label.",
+                               {.max_length = 20}),
   };
   static constexpr json::Object table = json::object<Measure>("measure", "A figure of each run.", fields);
   return table;
@@ -165,6 +172,22 @@ const json::Object& describe(json::Type<Replications>) {
       optional<&Replications::first_seed>("first_seed", "The seed of the first run."),
   };
   static constexpr json::Object table = json::object<Replications>("replications", "How often each variant runs.", fields, {.shorthand = "count"});
+  return table;
+}
+
+const json::Object& describe(json::Type<Verifying>) {
+  static constexpr json::Field fields[] = {
+      optional<&Verifying::budget>("budget",
+                                   "What the search for the worst run may cost at each point, in millions of events.",
+                                   {.min = 0, .max = 1'000'000}),
+      optional<&Verifying::seeds>("seeds",
+                                  "Runs of the scenario as it is, before the search, each with a seed of its own.",
+                                  {.min = 1, .max = 100'000}),
+  };
+  static constexpr json::Object table = json::object<Verifying>(
+      "verifying",
+      "How variants are verified, if a measure is worst.X, bound.X or verdict, or --find asks for a greatest time.",
+      fields);
   return table;
 }
 
@@ -233,15 +256,21 @@ const json::Object& describe(json::Type<Study>) {
       optional<&Study::description>("description", "What it asks."),
       optional<&Study::base>("base", "The scenario file that is varied, beside the study."),
       optional<&Study::scenario>("scenario", "The scenario that is varied, in place of a file."),
-      optional<&Study::schedule>("schedule", "Points are not run: streams are drawn on the network of the scenario and scheduled as takt schedule does it. Pointers of factors that begin with /schedule lead here."),
+      optional<&Study::schedule>("schedule",
+                                 "Points are not run: streams are drawn on the network of the scenario and scheduled "
+                                 "as takt schedule does it. Pointers of factors that begin with /schedule lead here."),
       required<&Study::factors>("factors", "What varies.", {.min_items = 1, .max_items = 100}),
       optional<&Study::design>("design", "Which combinations are run."),
-      optional<&Study::constraints>("constraints", "Only combinations for which all of these hold: \"slaves <= 4 * hops\".", {.max_items = 100}),
+      optional<&Study::constraints>(
+          "constraints", "Only combinations for which all of these hold: \"slaves <= 4 * hops\".", {.max_items = 100}),
       optional<&Study::replications>("replications", "Runs of each variant with different seeds."),
       required<&Study::measures>("measures", "What is looked at.", {.min_items = 1, .max_items = 100}),
       optional<&Study::limits>("limits", "What a point must keep to pass.", {.max_items = 100}),
-      optional<&Study::requirements_count>("requirements_count", "Whether a point must meet the scenario's own requirements too."),
+      optional<&Study::requirements_count>("requirements_count",
+                                           "Whether a point must meet the scenario's own requirements too."),
       optional<&Study::impossible>("impossible", "What becomes of variants that are no sound scenario."),
+      optional<&Study::verify>("verify",
+                               "How variants are verified: of measures worst.X, bound.X and verdict, and of --find."),
       optional<&Study::effort>("effort", "What one run may take."),
   };
   static constexpr std::string_view bases[] = {"base", "scenario"};

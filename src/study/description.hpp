@@ -120,6 +120,13 @@ struct Replications {
   bool operator==(const Replications&) const = default;
 };
 
+/// What the search for the worst run of a point may cost, and the runs that it begins with.
+struct Verifying {
+  double budget = 5;  ///< in millions of events
+  std::uint32_t seeds = 2;
+  bool operator==(const Verifying&) const = default;
+};
+
 /// What a point may take.
 struct Effort {
   sim::Duration cpu = sim::Duration::from_ps(600'000'000'000'000);
@@ -145,6 +152,7 @@ struct Study {
   std::vector<Limit> limits;
   bool requirements_count = true;    ///< a point passes only if the scenario's own requirements do
   Impossible impossible = Impossible::refused;
+  Verifying verify;
   Effort effort;
   bool operator==(const Study&) const = default;
 };
@@ -161,6 +169,7 @@ const json::Object& describe(json::Type<Design>);
 const json::Object& describe(json::Type<Measure>);
 const json::Object& describe(json::Type<Limit>);
 const json::Object& describe(json::Type<Replications>);
+const json::Object& describe(json::Type<Verifying>);
 const json::Object& describe(json::Type<Effort>);
 const json::Enumeration& describe(json::Type<Impossible>);
 const json::Object& describe(json::Type<Study>);

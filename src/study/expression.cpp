@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "json/node.hpp"
 #include "sim/check.hpp"
@@ -63,6 +64,71 @@ constexpr int levels = 5;
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+}  // namespace
+
+namespace {
+
+constexpr Between anything{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
+Between possible_truth(bool may_be_false, bool may_be_true) { return {truth(!may_be_false), truth(may_be_true)}; }
+bool may_be_true(const PossibleOperand& operand) {
+  const Between* const number = std::get_if<Between>(&operand);
+  return number != nullptr && (number->least != 0 || number->greatest != 0);
+}
+bool may_be_false(const PossibleOperand& operand) {
+  const Between* const number = std::get_if<Between>(&operand);
+  return number == nullptr || (number->least <= 0 && number->greatest >= 0);
+}
+
+/// Without a limit where one less the other is no number.
+Between known(const Between& a) { return a.least != a.least || a.greatest != a.greatest ? anything : a; }
+
+Between product_of(const Between& a, const Between& b) {
+  const std::array<double, 4> ends = {a.least * b.least, a.least * b.greatest, a.greatest * b.least,
+                                      a.greatest * b.greatest};
+  if (std::any_of(ends.begin(), ends.end(), [](double end) { return end != end; }))
+    return anything;  // nothing times no limit
+  const auto [least, greatest] = std::minmax_element(ends.begin(), ends.end());
+  return {*least, *greatest};
+}
+
+/// What two numbers of which one is not known exactly come to.
+Between combined(std::string_view sign, const Between& a, const Between& b) {
+  if (sign == "+") return known({a.least + b.least, a.greatest + b.greatest});
+  if (sign == "-") return known({a.least - b.greatest, a.greatest - b.least});
+  if (sign == "*") return product_of(a, b);
+  if (sign == "/") return b.least <= 0 && b.greatest >= 0 ? anything : product_of(a, {1 / b.greatest, 1 / b.least});
+  if (sign == "<=") return possible_truth(a.greatest > b.least, a.least <= b.greatest);
+  if (sign == "<") return possible_truth(a.greatest >= b.least, a.least < b.greatest);
+  if (sign == ">=") return possible_truth(a.least < b.greatest, a.greatest >= b.least);
+  if (sign == ">") return possible_truth(a.least <= b.greatest, a.greatest > b.least);
+  const bool may_be_equal = a.least <= b.greatest && b.least <= a.greatest;
+  return sign == "==" ? possible_truth(true, may_be_equal) : possible_truth(may_be_equal, true);
+}
+
+Operand exact(const PossibleOperand& operand) {
+  if (const Between* const number = std::get_if<Between>(&operand)) return number->least;
+  if (const std::string* const text = std::get_if<std::string>(&operand)) return *text;
+  return {};
+}
+PossibleOperand possible(const Operand& operand) {
+  if (const double* const number = std::get_if<double>(&operand)) return Between{*number, *number};
+  if (const std::string* const text = std::get_if<std::string>(&operand)) return *text;
+  return {};
+}
+
+PossibleOperand applied(const Operation& operation, const PossibleOperand& a, const PossibleOperand& b) {
+  if (operation.sign == "||")
+    return possible_truth(may_be_false(a) && may_be_false(b), may_be_true(a) || may_be_true(b));
+  if (operation.sign == "&&")
+    return possible_truth(may_be_false(a) || may_be_false(b), may_be_true(a) && may_be_true(b));
+  const Between* const left = std::get_if<Between>(&a);
+  const Between* const right = std::get_if<Between>(&b);
+  const bool are_exact = (left == nullptr || left->is_exact()) && (right == nullptr || right->is_exact());
+  if (are_exact || left == nullptr || right == nullptr) return possible(operation.apply(exact(a), exact(b)));
+  return combined(operation.sign, *left, *right);
+}
 
 }  // namespace
 
@@ -195,6 +261,37 @@ bool Expression::holds(const std::function<Operand(const std::string&)>& value_o
   }
   TAKT_CHECK(stack.size() == 1, "an expression leaves one value");
   return is_true(top());
+}
+
+Truth Expression::decide(const std::function<PossibleOperand(const std::string&)>& value_of) const {
+  std::vector<PossibleOperand> stack;
+  const auto top = [&]() -> PossibleOperand& { return stack.back(); };
+  for (const Step& step : *steps_) {
+    switch (step.kind) {
+      case Step::Kind::constant:
+        stack.push_back(possible(step.constant));
+        break;
+      case Step::Kind::name:
+        stack.push_back(value_of(names_[step.name]));
+        break;
+      case Step::Kind::negate: {
+        const Between* const number = std::get_if<Between>(&top());
+        top() = number != nullptr ? PossibleOperand(Between{-number->greatest, -number->least}) : PossibleOperand();
+        break;
+      }
+      case Step::Kind::invert:
+        top() = possible_truth(may_be_true(top()), may_be_false(top()));
+        break;
+      case Step::Kind::binary: {
+        const PossibleOperand right = std::move(top());
+        stack.pop_back();
+        top() = applied(operations[step.operation], top(), right);
+        break;
+      }
+    }
+  }
+  TAKT_CHECK(stack.size() == 1, "an expression leaves one value");
+  return !may_be_false(top()) ? Truth::yes : may_be_true(top()) ? Truth::unknown : Truth::no;
 }
 
 }  // namespace takt::study

@@ -1,9 +1,11 @@
 #include "study/measure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 #include "json/suggest.hpp"
+#include "scenario/figures/requirement.hpp"
 
 namespace takt::study {
 namespace {
@@ -13,7 +15,45 @@ bool is_name(std::string_view text) {
          !(text.front() >= '0' && text.front() <= '9');
 }
 
+constexpr std::array<std::string_view, 4> basis_names = {"run", "worst", "bound", "verdict"};
+
 }  // namespace
+
+std::string_view name_of(Basis basis) { return basis_names[static_cast<std::size_t>(basis)]; }
+
+std::optional<Basis> basis_named(std::string_view name) {
+  const auto found = std::find(basis_names.begin(), basis_names.end(), name);
+  return found == basis_names.end() ? std::nullopt : std::optional(static_cast<Basis>(found - basis_names.begin()));
+}
+
+bool has_worst_case(const scenario::Figure& figure) {
+  if (figure.take != Take::max) return false;
+  if (scenario::latency_of(figure)) return figure.steps.back() == "max";
+  return scenario::reaction_of(figure).has_value();
+}
+
+std::optional<PlannedMeasure> plan_study_measure(const Measure& measure, json::Diagnostics& diagnostics) {
+  if (measure.of == "verdict") {
+    auto planned = plan_measure(measure, diagnostics);
+    if (planned) planned->basis = Basis::verdict;
+    return planned;
+  }
+  for (const Basis basis : {Basis::worst, Basis::bound}) {
+    const std::string beginning = std::string(name_of(basis)) + ".";
+    if (!measure.of.starts_with(beginning)) continue;
+    Measure of_run = measure;
+    of_run.of = measure.of.substr(beginning.size());
+    auto planned = plan_measure(of_run, diagnostics);
+    if (!planned) return std::nullopt;
+    planned->basis = basis;
+    if (has_worst_case(*planned)) return planned;
+    diagnostics.error(measure.where.at("of"), "a figure without a worst case",
+                      {json::quote(measure.of), beginning + "reaction.KIND.max, " + beginning +
+                                                    "latency.STREAM.max or " + beginning + "latency.max"});
+    return std::nullopt;
+  }
+  return plan_measure(measure, diagnostics);
+}
 
 std::optional<PlannedMeasure> plan_measure(const Measure& measure, json::Diagnostics& diagnostics) {
   const bool has_name = is_name(measure.name);

@@ -10,6 +10,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "sim/digest.hpp"
 #include "study/design.hpp"
+#include "study/phases.hpp"
 
 namespace takt::study {
 namespace {
@@ -76,7 +77,8 @@ std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diag
   if (!study.where.is_known()) return nullptr;
   const auto base = base_of(study, path, diagnostics);
   check_names(study, diagnostics);
-  auto plan = std::make_unique<Plan>(Plan{study, base.value_or(json::Document(json::Node::object(), path)), {}, {}, {}, {}, {}, 0});
+  auto plan = std::make_unique<Plan>(
+      Plan{study, base.value_or(json::Document(json::Node::object(), path)), {}, {}, {}, {}, {}, 0, !study.schedule});
   std::optional<std::size_t> failures;
   for (std::size_t i = 0; i < study.factors.size(); ++i) {
     plan->factors.push_back(plan_factor(study.factors[i], std::filesystem::path(path).parent_path().string(), diagnostics));
@@ -85,7 +87,9 @@ std::unique_ptr<Plan> load_plan(const std::string& path, json::Diagnostics& diag
     failures = i;
   }
   for (const Measure& measure : study.measures)
-    if (auto planned = study.schedule ? plan_scheduling_measure(measure, diagnostics) : plan_measure(measure, diagnostics)) plan->measures.push_back(std::move(*planned));
+    if (auto planned =
+            study.schedule ? plan_scheduling_measure(measure, diagnostics) : plan_study_measure(measure, diagnostics))
+      plan->measures.push_back(std::move(*planned));
   for (const Limit& limit : study.limits)
     if (auto planned = plan_limit(limit, plan->measures, diagnostics)) plan->limits.push_back(std::move(*planned));
   if (!base) return nullptr;
@@ -160,6 +164,19 @@ std::optional<Scheduling> scheduling_of(const Plan& plan, const Variant& variant
 }
 
 std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics) {
+  auto scenario = undrawn_scenario_of(plan, variant, seed, diagnostics);
+  if (!scenario || !plan.draws_phases) return scenario;
+  if (scenario->gates && scenario->gates->plan == scenario::GatePlanning::automatic) {
+    // Gates are laid for the phases that the scenario gives, not for those that are drawn.
+    const auto resolved = scenario::resolve(std::move(*scenario), diagnostics);
+    if (!resolved) return std::nullopt;
+    scenario = resolved->scenario;
+  }
+  return with_drawn_phases(*scenario);
+}
+
+std::optional<scenario::Scenario> undrawn_scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed,
+                                                      json::Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.errors();
   json::Document document = plan.base;
   if (!vary(plan, variant, seed, document, diagnostics)) return std::nullopt;

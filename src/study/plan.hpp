@@ -1,6 +1,7 @@
 // A study that has been read and checked: its factors with their levels, its variants, its measures.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,6 +48,13 @@ struct Plan {
   std::string text;                               ///< study and base as one line of JSON: what the configuration digest is of
   std::uint64_t digest = 0;                       ///< of the configuration: two stores belong together if theirs are equal
 
+  bool draws_phases = true;  ///< talkers and publishers whose phase nobody gives get one by the seed; else they begin
+                             ///< at 0, as takt run has it
+
+  /// Some measure is of the verification of the variant.
+  bool is_verified() const {
+    return std::any_of(measures.begin(), measures.end(), [](const PlannedMeasure& m) { return m.basis != Basis::run; });
+  }
   std::uint64_t points() const { return variants.size() * study.replications.count; }
   std::size_t variant_of(std::uint64_t point) const { return point / study.replications.count; }
   std::uint32_t replication_of(std::uint64_t point) const { return static_cast<std::uint32_t>(point % study.replications.count); }
@@ -70,7 +78,12 @@ void check_variant(const Plan& plan, const Variant& variant, json::Diagnostics& 
 /// What a study of schedules asks of a variant. Nothing after an error.
 std::optional<Scheduling> scheduling_of(const Plan& plan, const Variant& variant, json::Diagnostics& diagnostics);
 
-/// The scenario of a variant with a seed, still to be resolved. Nothing after an error.
+/// The scenario of a variant with a seed, still to be resolved; with `draws_phases`, with a phase for each talker and
+/// publisher. Nothing after an error.
 std::optional<scenario::Scenario> scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed, json::Diagnostics& diagnostics);
+
+/// The same as the study has it, without phases that are drawn: the one that is verified, for all phases.
+std::optional<scenario::Scenario> undrawn_scenario_of(const Plan& plan, const Variant& variant, std::uint64_t seed,
+                                                      json::Diagnostics& diagnostics);
 
 }  // namespace takt::study

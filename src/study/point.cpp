@@ -4,14 +4,15 @@
 #include <array>
 #include <cstring>
 
-#include "results/result_json.hpp"
 #include "evaluation/evaluate.hpp"
-#include "scenario/resolve/resolve.hpp"
+#include "results/result_json.hpp"
 #include "scenario/division/division.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "scenario/run/divided_run.hpp"
 #include "scenario/run/run.hpp"
 #include "scenario/topology/graph_figures.hpp"
 #include "study/cpu_time.hpp"
+#include "study/verified.hpp"
 
 namespace takt::study {
 namespace {
@@ -43,6 +44,24 @@ results::RunResult result_of(const scenario::Resolved& resolved, unsigned thread
 
 bool keeps_limits(const Plan& plan, const Outcome& outcome) {
   return std::all_of(plan.limits.begin(), plan.limits.end(), [&](const PlannedLimit& limit) { return limit.holds(outcome.values[limit.measure]); });
+}
+
+/// What a verification of the variant adds to the outcome of its run.
+void add_verification(const Plan& plan, const scenario::Scenario& scenario, const scenario::Scenario& ran,
+                      unsigned threads, Outcome& outcome) {
+  Verified verified = verify_variant(plan, scenario, ran, outcome.values,
+                                     outcome.verdict == results::name_of(results::Verdict::fail), threads);
+  if (!verified.contradiction.empty()) {
+    outcome = {};
+    outcome.status = Status::failed;
+    outcome.error = "a contradiction, please report it with the study: " + verified.contradiction;
+    return;
+  }
+  for (std::size_t m = 0; m < plan.measures.size(); ++m)
+    if (plan.measures[m].basis != Basis::run) outcome.values[m] = verified.values[m];
+  if (verified.is_required) outcome.verdict = verify::name_of(verified.verdict);
+  const bool is_refuted = plan.study.requirements_count && verified.verdict == verify::Conclusion::refuted;
+  outcome.passes = outcome.passes && !is_refuted && keeps_limits(plan, outcome);
 }
 
 class Packer {
@@ -112,7 +131,13 @@ Outcome run_variant(const Plan& plan, const Variant& variant, std::uint64_t seed
   json::Diagnostics diagnostics;
   const auto scenario = scenario_of(plan, variant, seed, diagnostics);
   if (!scenario) return impossible(diagnostics);
-  if (!plan.study.schedule) return run_scenario(plan, *scenario, threads);
+  if (!plan.study.schedule) {
+    Outcome outcome = run_scenario(plan, *scenario, threads);
+    if (outcome.status == Status::done && plan.is_verified())
+      if (const auto undrawn = undrawn_scenario_of(plan, variant, seed, diagnostics))
+        add_verification(plan, *undrawn, *scenario, threads, outcome);
+    return outcome;
+  }
   const auto scheduling = scheduling_of(plan, variant, diagnostics);
   const auto resolved = scheduling ? scenario::resolve(*scenario, diagnostics) : nullptr;
   if (resolved) check_scheduling(*resolved, *scheduling, diagnostics);

@@ -26,7 +26,8 @@ struct Outcome {
   Status status = Status::done;
   std::string error;                           ///< why it is not done
   bool passes = false;                         ///< it is done and keeps every limit
-  std::string verdict;                         ///< of the scenario's own requirements; of a study of schedules scheduled, infeasible or undecided
+  std::string verdict;  ///< of the scenario's own requirements, of a study that verifies: pass, refuted, undecided; of
+                        ///< schedules: scheduled, infeasible, undecided
   std::uint64_t digest = 0;
   std::uint64_t events = 0;
   std::uint64_t cpu_us = 0;                    ///< differs from run to run, as nothing else here does
@@ -37,7 +38,8 @@ struct Outcome {
 Outcome run_point(const Plan& plan, std::uint64_t point, unsigned threads = 1);
 /// The same for any variant and seed.
 Outcome run_variant(const Plan& plan, const Variant& variant, std::uint64_t seed, unsigned threads = 1);
-/// The same for a scenario that somebody else has made.
+/// The same for a scenario that somebody else has made, without verification: measures worst.X and bound.X have the
+/// value of X in the run, and verdict is that of the run.
 Outcome run_scenario(const Plan& plan, const scenario::Scenario& scenario, unsigned threads = 1);
 
 /// The mistakes of a variant, one a line; empty if it is a sound scenario.

@@ -10,7 +10,9 @@
 #include "study/effects.hpp"
 #include "study/frontier.hpp"
 #include "study/magnitude.hpp"
+#include "study/report_answers.hpp"
 #include "study/report_charts.hpp"
+#include "verify/verification.hpp"
 
 namespace takt::study {
 namespace {
@@ -43,18 +45,6 @@ std::vector<std::size_t> failing_rows(const Content& content) {
   for (std::size_t row = 0; row < content.rows(); ++row)
     if (content.status[row] == Status::done && !content.passes[row]) rows.push_back(row);
   return rows;
-}
-
-std::string broken_by(const Content& content, std::size_t row) {
-  std::string text;
-  for (const PlannedLimit& limit : content.limits) {
-    const ContentMeasure& measure = content.measures[limit.measure];
-    const double value = measure.values[row];
-    const bool is_missing = value != value;
-    if (limit.holds(is_missing ? std::nullopt : std::optional(value))) continue;
-    text += (text.empty() ? "" : "; ") + limit.text + ": " + (is_missing ? std::string("none") : scenario::text_of(value, measure.unit));
-  }
-  return text.empty() ? "requirements of the scenario" : text;
 }
 
 class Page {
@@ -106,7 +96,7 @@ class Page {
       if (factor.texts.size() > 12) levels += fmt::format(" ... ({} in all)", factor.texts.size());
       add("<tr><td>" + escaped(factor.name) + "</td><td>" + escaped(levels) + "</td></tr>\n");
     }
-    add("</table>\n");
+    add("</table>\n" + figures_table(content_));
   }
 
   /// What holds up to where, and what matters: the questions that a study is run for.
@@ -122,9 +112,34 @@ class Page {
       good += passes.value_or(false) ? 1 : 0;
     }
     const char* const look = known == 0 ? "undecided" : good == known ? "pass" : "fail";
-    add(fmt::format("<p class=\"verdict {}\">{}</p>\n", look, known == 0 ? "no variant has a result" : good == known ? fmt::format("all {} variants pass", known) : fmt::format("{} of {} variants pass", good, known)));
+    add(fmt::format("<p class=\"verdict {}\">{}{}</p>\n", look,
+                    known == 0      ? "no variant has a result"
+                    : good == known ? fmt::format("all {} variants pass", known)
+                                    : fmt::format("{} of {} variants pass", good, known),
+                    known == 0 ? "" : how_they_pass()));
+    add(level_tables(content_));
     holds_up_to();
     what_matters();
+  }
+
+  /// What passing means here: a few runs are no proof.
+  std::string how_they_pass() const {
+    if (content_.is_of_schedules) return {};
+    if (std::none_of(content_.measures.begin(), content_.measures.end(),
+                     [](const ContentMeasure& measure) { return measure.basis != Basis::run; }))
+      return fmt::format(
+          " in {} run{} each, which is no proof that they do in every run: measures bound.X, worst.X and verdict look "
+          "for one",
+          content_.header.replications, content_.header.replications == 1 ? "" : "s");
+    std::size_t undecided = 0;
+    for (std::size_t row = 0; row < content_.rows(); ++row)
+      undecided +=
+          content_.passes[row] && content_.verdict[row] == verify::name_of(verify::Conclusion::undecided) ? 1 : 0;
+    return undecided == 0 ? std::string()
+                          : fmt::format(
+                                "; the requirements of {} point{} are undecided: no run that was found breaks them, "
+                                "and no proof excludes one",
+                                undecided, undecided == 1 ? "" : "s");
   }
 
   /// Of a study of schedules what it is about.
@@ -151,8 +166,11 @@ class Page {
       }
       if (breaks.empty()) continue;
       const std::string everywhere = first == nullptr ? "the end" : first->last_good ? factor.texts[*first->last_good] : "nothing";
-      table.row({{factor.name}, {everywhere, true}, {first == nullptr ? "-" : factor.texts[*first->first_bad], true, first == nullptr ? "" : "fail"},
-                 {first == nullptr ? std::string() : others_of(first->variant, f)}, {fmt::format("{} of {}", unbroken, breaks.size()), true}});
+      table.row({{factor.name},
+                 {everywhere, true},
+                 {first == nullptr ? "-" : factor.texts[*first->first_bad], true, first == nullptr ? "" : "fail"},
+                 {first == nullptr ? std::string() : others_of(content_, first->variant, f)},
+                 {fmt::format("{} of {}", unbroken, breaks.size()), true}});
     }
     add(table.take());
   }
@@ -177,14 +195,6 @@ class Page {
     const std::string rows = table.take();
     if (!rows.empty()) add("<h3>What matters</h3><p class=\"note\">Share of the variance between variants for which the levels of a factor account by themselves, ranked. Where a design does not have every "
                            "combination equally often, factors share what they cannot be told apart by.</p>\n" + rows);
-  }
-
-  /// "slaves = 3, cycle = 200us": all levels of a variant but that of one factor.
-  std::string others_of(std::uint32_t variant, std::size_t factor) const {
-    std::string text;
-    for (std::size_t g = 0; g < content_.factors.size(); ++g)
-      if (g != factor) text += (text.empty() ? "" : ", ") + content_.factors[g].name + " = " + content_.level_text(variant, g);
-    return text;
   }
 
   void main_effects() {
@@ -272,8 +282,9 @@ class Page {
       add("<table><tr><th>" + escaped(factor.name) + " passes up to</th><th>and breaks at</th><th>where</th></tr>\n");
       for (std::size_t i = 0; i < std::min(breaks.size(), most_rows); ++i) {
         const Break& one = breaks[i];
-        add("<tr><td>" + escaped(one.last_good ? factor.texts[*one.last_good] : "-") + "</td><td class=\"fail\">" + escaped(one.first_bad ? factor.texts[*one.first_bad] : "") + "</td><td>" +
-            escaped(others_of(one.variant, f)) + "</td></tr>\n");
+        add("<tr><td>" + escaped(one.last_good ? factor.texts[*one.last_good] : "-") + "</td><td class=\"fail\">" +
+            escaped(one.first_bad ? factor.texts[*one.first_bad] : "") + "</td><td>" +
+            escaped(others_of(content_, one.variant, f)) + "</td></tr>\n");
       }
       if (breaks.size() > most_rows) add(fmt::format("<tr><td></td><td></td><td>and {} more combinations</td></tr>\n", breaks.size() - most_rows));
       add("</table>\n");
@@ -316,15 +327,19 @@ std::string text_summary(const Content& content) {
   const Counts counts = counts_of(content);
   std::string text = fmt::format("{}: {} of {} points, {} pass, {} do not", content.header.name, content.rows(), content.header.points(), counts.passing, counts.done - counts.passing);
   for (const auto& [status, count] : counts.troubled) text += fmt::format(", {} {}", count, name_of(status));
-  text += "\n";
+  text += "\n" + level_text(content);
   for (std::size_t m = 0; m < content.measures.size(); ++m) {
     std::vector<double> all;
     for (const double value : content.measures[m].values)
       if (value == value) all.push_back(value);
     const Summary summary = summary_of(all, 0);
-    text += fmt::format("  {:<24} {} to {}, mean {}{}{}, {} missing\n", content.measures[m].name, short_number(summary.min), short_number(summary.max), short_number(summary.mean),
-                        content.measures[m].unit.empty() ? "" : " ", content.measures[m].unit,
-                        content.rows() - all.size());
+    text +=
+        fmt::format("  {:<24} {} to {}, mean {}{}{}, {} missing{}\n", content.measures[m].name,
+                    short_number(summary.min), short_number(summary.max), short_number(summary.mean),
+                    content.measures[m].unit.empty() ? "" : " ", content.measures[m].unit, content.rows() - all.size(),
+                    content.measures[m].basis == Basis::worst   ? " (worst found)"
+                    : content.measures[m].basis == Basis::bound ? " (bound)"
+                                                                : "");
   }
   if (const auto frontier = frontier_of(content)) return text + frontier_text(content, *frontier);
   const std::vector<std::size_t> failing = failing_rows(content);

@@ -20,6 +20,8 @@ scenario::Requirement requirement_of(const Plan& plan, const Limit& limit) {
   const Measure& said = plan.study.measures[measure];
   scenario::Requirement requirement;
   requirement.figure = said.of;
+  if (plan.measures[measure].basis == Basis::worst || plan.measures[measure].basis == Basis::bound)
+    requirement.figure->erase(0, said.of.find('.') + 1);
   requirement.only = said.only;
   if (said.of.starts_with('/')) requirement.take = said.take;   // a short form says it itself
   if (!plan.measures[measure].unit.empty()) requirement.unit = plan.measures[measure].unit;
@@ -51,7 +53,10 @@ class Shrinker {
     }
     note_broken(*outcome);
     if (outcome->passes) {
-      shrunk_.problem = "the point passes: there is nothing to shrink";
+      shrunk_.problem =
+          plan_.is_verified()
+              ? "the run of the point passes: if it fails, then by a worst case or a bound, which takt verify shows"
+              : "the point passes: there is nothing to shrink";
       return;
     }
     leave_out();

@@ -21,13 +21,22 @@ std::string tables_of(std::size_t factors, std::size_t measures) {
   std::string values;
   for (std::size_t i = 0; i < measures; ++i) values += fmt::format(", m{} REAL", i);
   return "CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
-         "CREATE TABLE factor(id INTEGER PRIMARY KEY, name TEXT NOT NULL, unit TEXT NOT NULL, logarithmic INTEGER NOT NULL);"
-         "CREATE TABLE level(factor INTEGER, id INTEGER, text TEXT NOT NULL, number REAL, PRIMARY KEY(factor, id)) WITHOUT ROWID;"
+         "CREATE TABLE factor(id INTEGER PRIMARY KEY, name TEXT NOT NULL, unit TEXT NOT NULL, logarithmic INTEGER NOT "
+         "NULL);"
+         "CREATE TABLE level(factor INTEGER, id INTEGER, text TEXT NOT NULL, number REAL, PRIMARY KEY(factor, id)) "
+         "WITHOUT ROWID;"
          "CREATE TABLE measure(id INTEGER PRIMARY KEY, name TEXT NOT NULL, unit TEXT NOT NULL);"
-         "CREATE TABLE limits(id INTEGER PRIMARY KEY, measure INTEGER NOT NULL, is_upper INTEGER NOT NULL, value REAL NOT NULL, text TEXT NOT NULL);"
-         "CREATE TABLE variant(id INTEGER PRIMARY KEY" + levels + ");"
-         "CREATE TABLE point(id INTEGER PRIMARY KEY, variant INTEGER NOT NULL, replication INTEGER NOT NULL, seed TEXT NOT NULL, status TEXT NOT NULL,"
-         " pass INTEGER NOT NULL, verdict TEXT NOT NULL, digest TEXT NOT NULL, events INTEGER NOT NULL, cpu_us INTEGER NOT NULL, error TEXT NOT NULL" + values + ");";
+         "CREATE TABLE basis(measure INTEGER PRIMARY KEY, name TEXT NOT NULL);"
+         "CREATE TABLE limits(id INTEGER PRIMARY KEY, measure INTEGER NOT NULL, is_upper INTEGER NOT NULL, value REAL "
+         "NOT NULL, text TEXT NOT NULL);"
+         "CREATE TABLE variant(id INTEGER PRIMARY KEY" +
+         levels +
+         ");"
+         "CREATE TABLE point(id INTEGER PRIMARY KEY, variant INTEGER NOT NULL, replication INTEGER NOT NULL, seed TEXT "
+         "NOT NULL, status TEXT NOT NULL,"
+         " pass INTEGER NOT NULL, verdict TEXT NOT NULL, digest TEXT NOT NULL, events INTEGER NOT NULL, cpu_us INTEGER "
+         "NOT NULL, error TEXT NOT NULL" +
+         values + ");";
 }
 
 /// Names as columns: points with the levels' texts and the measures.
@@ -85,6 +94,12 @@ void put_measures(sqlite3* database, const Plan& plan, std::string& problem) {
     insert.bind(1, std::string_view(plan.measures[i].name));
     insert.bind(2, std::string_view(plan.measures[i].unit));
     run(database, insert, problem);
+  }
+  Statement insert_basis(database, "INSERT INTO basis VALUES(?, ?)");
+  for (std::size_t i = 0; i < plan.measures.size(); ++i) {
+    insert_basis.bind(0, static_cast<std::int64_t>(i));
+    insert_basis.bind(1, name_of(plan.measures[i].basis));
+    run(database, insert_basis, problem);
   }
   Statement insert_limit(database, "INSERT INTO limits VALUES(?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < plan.limits.size(); ++i) {
@@ -211,7 +226,8 @@ std::string Store::read_header() {
     const std::string value = select.text(1);
     if (key == "schema") version = value;
     if (key == "takt") header_.maker.version = value;
-    if (key == "behaviour") header_.maker.behaviour = static_cast<std::uint32_t>(std::strtoul(value.c_str(), nullptr, 10));
+    if (key == "behaviour")
+      header_.maker.behaviour = static_cast<std::uint32_t>(std::strtoul(value.c_str(), nullptr, 10));
     if (key == "study") header_.name = value;
     if (key == "digest") header_.digest = value;
     if (key == "configuration") header_.configuration = value;
@@ -309,9 +325,13 @@ std::string join(sqlite3* database, const std::string& part) {
 
 std::string why_not_resumed(const StoreHeader& header, const Plan& plan, const std::string& path) {
   const std::string digest = fmt::format("{:016x}", plan.digest);
-  if (header.digest != digest) return fmt::format("{} is of another study or an older state of this one (\"{}\" {}, now {})", path, header.name, header.digest, digest);
+  if (header.digest != digest)
+    return fmt::format("{} is of another study or an older state of this one (\"{}\" {}, now {})", path, header.name,
+                       header.digest, digest);
   const std::string difference = results::difference_to(header.maker, path);
-  return difference.empty() ? difference : difference + ". Go on with a takt of that number, or run the study anew into another store";
+  return difference.empty()
+             ? difference
+             : difference + ". Go on with a takt of that number, or run the study anew into another store";
 }
 
 std::string merge_stores(const std::string& path, const std::vector<std::string>& parts) {
@@ -325,7 +345,10 @@ std::string merge_stores(const std::string& path, const std::vector<std::string>
     if (!first) first = header;
     if (header.digest != first->digest) return fmt::format("{} is of another study than {} (\"{}\" {}, \"{}\" {})", part, parts.front(), header.name, header.digest, first->name, first->digest);
     if (header.maker.behaviour != first->maker.behaviour)
-      return fmt::format("{} was made by {}, {} by {}: their points cannot be compared. Run one of them anew, with the takt of the other", part, results::name_of(header.maker), parts.front(), results::name_of(first->maker));
+      return fmt::format(
+          "{} was made by {}, {} by {}: their points cannot be compared. Run one of them anew, with the takt of the "
+          "other",
+          part, results::name_of(header.maker), parts.front(), results::name_of(first->maker));
     store->tidy();
   }
   make_folder_of(path);

@@ -61,7 +61,8 @@ class Store {
   StoreHeader header_;
 };
 
-/// Why points of a plan cannot be added to a store: it is of another study, or another takt would have other results for the same points. Else empty.
+/// Why points of a plan cannot be added to a store: it is of another study, or another takt would have other results
+/// for the same points. Else empty.
 std::string why_not_resumed(const StoreHeader& header, const Plan& plan, const std::string& path);
 
 /// Joins stores of one study into a new one. Stores of different studies, versions or results are refused. The problem, or "".

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "json/quantity.hpp"
-#include "scenario/description/promises.hpp"
 #include "sim/check.hpp"
+#include "verify/free_phases.hpp"
 
 namespace takt::verify {
 namespace {
@@ -12,29 +12,6 @@ namespace {
 using scenario::Program;
 using scenario::Scenario;
 using sim::Duration;
-
-const std::string& participant_name(const Program& program, std::size_t participant) {
-  return participant == 0 ? program.master : program.slaves[participant - 1];
-}
-
-void add_talkers(const Scenario& scenario, std::vector<FreeVariable>& found) {
-  for (std::size_t s = 0; s < scenario.streams.size(); ++s) {
-    const scenario::Stream& stream = scenario.streams[s];
-    const Duration period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
-    if (!scenario::promises_phase(stream) && period > Duration()) found.push_back({FreeVariable::Kind::talker, s, 0, period, "phase of " + stream.name, {}, {}, {}});
-  }
-}
-
-void add_publishers(const Scenario& scenario, std::vector<FreeVariable>& found) {
-  for (std::size_t p = 0; p < scenario.programs.size(); ++p) {
-    const Program& program = scenario.programs[p];
-    if (!program.roles.empty()) continue;   // who takes part, and since when, is settled in the run
-    for (std::size_t participant = 0; participant <= program.slaves.size(); ++participant) {
-      const std::string& name = participant_name(program, participant);
-      if (!scenario::promises_phase(program, name)) found.push_back({FreeVariable::Kind::publisher, p, participant, program.cycle, "phase of " + program.name + " on " + name, {}, {}, {}});
-    }
-  }
-}
 
 void add_calls(const Scenario& scenario, std::vector<FreeVariable>& found) {
   std::vector<Duration> times;
@@ -193,9 +170,9 @@ void fix(scenario::OperatingSystem& os, const FreeVariable& variable, Duration v
 
 std::vector<FreeVariable> free_variables_of(const scenario::Resolved& resolved) {
   std::vector<FreeVariable> found;
-  add_publishers(resolved.scenario, found);
+  add_free_publishers(resolved.scenario, found);
   add_calls(resolved.scenario, found);
-  add_talkers(resolved.scenario, found);
+  add_free_talkers(resolved.scenario, found);
   add_faults(resolved.scenario, found);
   add_latencies(resolved, found);
   add_jitters(resolved.scenario, found);

@@ -48,7 +48,8 @@ FILES = {
                      "ring.top": TOPOLOGY, "set1.pat": STREAMS, "set2.pat": STREAMS,
                      "task.csv": "stream,src,dst,size,period,deadline,jitter\n0,0,[1],200,1000000,1000000,1000000\n",
                      "topo.csv": "link,q_num,rate,t_proc,t_prop\n\"(0, 2)\",8,1,0,0\n\"(2, 0)\",8,1,0,0\n\"(1, 2)\",8,1,0,0\n\"(2, 1)\",8,1,0,0\n"},
-    "studies.md": {"line.json": "scenarios/direct-link.json", "ring.json": "scenarios/direct-link.json", "worst.json": "scenarios/direct-link.json"},
+    "studies.md": {"line.json": "scenarios/direct-link.json", "ring.json": "scenarios/direct-link.json", "worst.json": "scenarios/direct-link.json",
+                   "whatif.json": "tests/findings/study-of-a-cycle.json"},
 }
 
 

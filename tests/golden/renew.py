@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Renews the pinned digests of runs, after a change that is meant to change what happens in a run or what the digest covers, and raises the number of behaviour.
+"""Renews the pinned digests of runs, after a change that is meant to change what happens in a run or what the digest
+covers, and raises the number of behaviour.
 
 usage: renew.py BUILD_FOLDER [--hour] [--because TEXT]     renews the digests, and the number if one of them changed
        renew.py --number [--because TEXT | --same]         renews the number alone, without a build
@@ -8,10 +9,11 @@ usage: renew.py BUILD_FOLDER [--hour] [--because TEXT]     renews the digests, a
 BUILD_FOLDER holds takt and takt_runs_test of the changed sources. Renewed are tests/golden/scenario_digests.txt, what the pages show of
 outputs (tests/docs/renew.py) and, with --hour (an hour simulated, some minutes), the digest in docs/papers/programs.md. The commit says why they change.
 
-The number of behaviour is the number of lines in src/results/behaviours.inc; --because adds one: "cut-through starts behind closed gates, too".
-tests/golden/behaviour.txt holds it beside what it is the number of: a hash of the pinned digests and one of docs/reference/result.md, where the
-meaning of each figure stands. --same keeps the number: there are only new scenarios, new figures or better words. Lines that two branches add to
-both files are all kept, so each branch raises the number; after the merge renew.py --number notes the digests of both.
+The number of behaviour is the number of lines in src/results/behaviours.inc; --because adds one: "cut-through starts
+behind closed gates, too". tests/golden/behaviour.txt holds it beside what it is the number of: a hash of the pinned
+digests and one of docs/reference/result.md, where the meaning of each figure stands. --same keeps the number: there are
+only new scenarios, new figures or better words. Lines that two branches add to both files are all kept, so each branch
+raises the number; after the merge renew.py --number notes the digests of both.
 """
 import argparse
 import hashlib
@@ -27,7 +29,7 @@ DIGESTS = "tests/golden/scenario_digests.txt"
 MEANINGS = "docs/reference/result.md"
 REASONS = "src/results/behaviours.inc"
 NOTED = "tests/golden/behaviour.txt"
-HEAD = "# number of behaviour, hash of the pinned digests, hash of the meanings of figures; tests/golden/renew.py writes it\n"
+HEAD = "# number of behaviour, hash of the pinned digests, hash of the meanings of figures (tests/golden/renew.py)\n"
 
 
 def digest_of(takt, scenario, *arguments):
@@ -71,9 +73,12 @@ class Behaviour:
         known = self._of_number()
         if not known or self.now in known:
             return f"The number of behaviour is {self.number}, and {NOTED} does not say so: tests/golden/renew.py --number notes it."
-        what = "pinned digests changed" if self.now[0] not in [digests for digests, _ in known] else f"meanings of figures changed ({MEANINGS})"
-        return (f"The {what}, and the number of behaviour is still {self.number}: stores and results of before would be taken for those of now. "
-                f'tests/golden/renew.py --number --because "what runs or figures do differently" raises it; --same keeps it, if there are only new scenarios, new figures or better words.')
+        is_of_runs = self.now[0] not in [digests for digests, _ in known]
+        what = "pinned digests changed" if is_of_runs else f"meanings of figures changed ({MEANINGS})"
+        return (f"The {what}, and the number of behaviour is still {self.number}: stores and results of before would be "
+                "taken for those of now. tests/golden/renew.py --number --because "
+                '"what runs or figures do differently" raises it; '
+                "--same keeps it, if there are only new scenarios, new figures or better words.")
 
     def must_be_raised(self):
         known = self._of_number()
@@ -106,8 +111,9 @@ def main():
     parser.add_argument("--because")
     options = parser.parse_args()
     if options.check:
-        sys.exit(Behaviour().problem())
-    if options.because is not None and (options.same or not options.because.strip() or len(options.because.splitlines()) > 1):
+        sys.exit(Behaviour().problem() or 0)
+    is_line = options.because is None or (options.because.strip() and len(options.because.splitlines()) == 1)
+    if not is_line or (options.because and options.same):
         sys.exit("--because: expected a line that says what runs or figures do differently, and not --same")
     if options.number == bool(options.build):
         sys.exit(__doc__)
@@ -118,7 +124,8 @@ def main():
         subprocess.run([ROOT / "tests" / "docs" / "renew.py", build], check=True)
         if options.hour:
             renew("docs/papers/programs.md", "Digest of the hour at n = 20: `", digest_of(build / "takt", "papers/programs/round-trip-20.json", "--duration", "3610s"))
-        options.same = options.same or (was_noted and set(before) <= set(lines_of(ROOT, DIGESTS, "#")))   # only new scenarios
+        has_only_new_ones = was_noted and set(before) <= set(lines_of(ROOT, DIGESTS, "#"))
+        options.same = options.same or has_only_new_ones
     renew_number(options.because, options.same)
 
 

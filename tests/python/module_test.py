@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -146,6 +147,15 @@ class SameAnswers(unittest.TestCase):
             frame = table.to_pandas()
             self.assertEqual(len(frame), len(takt.study(study)))
             self.assertLessEqual({*table.factors, *table.measures, "passes", "status"}, set(frame.columns))
+            self.assertEqual(table.behaviour, takt.behaviour)
+            self.assertIn(f", behaviour {takt.behaviour}", command("--version").splitlines()[0])
+            with sqlite3.connect(f"{folder}/module.sqlite") as database:
+                database.execute("UPDATE meta SET value = ? WHERE key = 'behaviour'", (str(takt.behaviour + 1),))
+            database.close()
+            with self.assertWarnsRegex(UserWarning, f"with behaviour {takt.behaviour + 1}, this is takt .* with behaviour {takt.behaviour}"):
+                takt.read_store(f"{folder}/module.sqlite")
+            with self.assertRaisesRegex(takt.Mistake, "Go on with a takt of that number"):
+                takt.study(study).run(f"{folder}/module.sqlite", resume=True)
 
 
 class Mistakes(unittest.TestCase):

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "study/report.hpp"
+#include "study/report_answers.hpp"
 #include "study/spread_order.hpp"
 
 namespace takt::study {
@@ -14,7 +16,7 @@ namespace {
 /// Measure "y" of (a, b, replication) is 10 a + b + replication; "z" is its opposite. It passes below 12.
 Content sample() {
   Content content;
-  content.header = {"1", "by <hand>", "0", 6, 2};
+  content.header = {{"1", 1}, "by <hand>", "0", 6, 2};
   content.factors = {{"a", "", false, {"0", "1"}, {0, 1}}, {"b", "", false, {"1", "2", "3"}, {1, 2, 3}}};
   content.measures = {{"y", "us", true, {}}, {"z", "", true, {}}};
   for (std::uint32_t a = 0; a < 2; ++a)
@@ -129,6 +131,77 @@ TEST(Report, StandsAlone) {
   EXPECT_TRUE(html.ends_with("</html>\n"));
   EXPECT_NE(html.find("by &lt;hand&gt;"), std::string::npos);
   for (const char* const outside : {"<script", "src=", "http-equiv", "@import", "url("}) EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+}
+
+/// Which protection survives? Three protections, two links; "both" keeps the limit on either link, "one" on the first
+/// only, "none" on neither.
+Content protections() {
+  Content content;
+  content.header = {{"1", 1}, "cut", "0", 6, 1};
+  content.factors = {{"protection", "", false, {"none", "both", "one"}, {NAN, NAN, NAN}},
+                     {"link", "", false, {"a-b", "b-c"}, {NAN, NAN}}};
+  content.measures = {{"lost", "frames", true, {3, 4, 0, 0, 0, 12}, true}};
+  content.limits = {{{scenario::Relation::at_most, 0, "0 frames"}, 0}};
+  content.limits[0].text = "lost <= 0";
+  for (std::uint32_t v = 0; v < 6; ++v) {
+    content.variants.push_back({v / 2, v % 2});
+    content.variant.push_back(v);
+    content.replication.push_back(0);
+    content.status.push_back(Status::done);
+    content.passes.push_back(content.measures[0].values[v] == 0);
+    content.verdict.emplace_back("pass");
+  }
+  return content;
+}
+
+TEST(Answers, LevelsWithNamesByWhatPasses) {
+  const Content content = protections();
+  const std::vector<LevelScore> scores = level_scores(content, 0);
+  ASSERT_EQ(scores.size(), 3u);
+  EXPECT_EQ(scores[0].level, 1u);
+  EXPECT_EQ(scores[0].passing, 2u);
+  EXPECT_FALSE(scores[0].first_break);
+  EXPECT_EQ(scores[1].level, 2u);
+  EXPECT_EQ(scores[1].passing, 1u);
+  EXPECT_EQ(*scores[1].first_break, 5u);
+  EXPECT_EQ(scores[2].passing, 0u);
+  const std::string summary = text_summary(content);
+  EXPECT_NE(summary.find("protection: variants that pass\n"
+                         "  both  2 of 2\n"
+                         "  one   1 of 2, the first to break: link = b-c: lost <= 0: 12 frames\n"
+                         "  none  0 of 2, the first to break: link = a-b: lost <= 0: 3 frames\n"
+                         "link: variants that pass\n"
+                         "  a-b  2 of 3, the first to break: protection = none: lost <= 0: 3 frames\n"),
+            std::string::npos)
+      << summary;
+  EXPECT_LT(summary.find("protection: variants"), summary.find("  lost  ")) << "the answer stands first";
+  const std::string page = html_report(content);
+  EXPECT_NE(page.find("<th>greatest lost</th>"), std::string::npos);
+  EXPECT_LT(page.find("2 of 2"), page.find("What matters")) << "the answer stands first";
+}
+
+TEST(Answers, NumbersAreNoNames) { EXPECT_EQ(level_text(sample()), ""); }
+
+TEST(Answers, WhatFiguresAre) {
+  Content content = protections();
+  EXPECT_NE(meaning_of(content, 0).find("of runs: 1 of each variant, phases that nobody gave drawn by the seed"),
+            std::string::npos);
+  EXPECT_NE(
+      html_report(content).find("3 of 6 variants pass in 1 run each, which is no proof that they do in every run"),
+      std::string::npos);
+  content.measures[0].basis = Basis::bound;
+  content.measures[0].values[5] = NAN;
+  EXPECT_EQ(
+      meaning_of(content, 0),
+      "bound: no run exceeds it, whatever phases and chance bring; missing in 1 of 6 points, where nothing bounds it");
+  content.measures[0].basis = Basis::worst;
+  content.budget = 2;
+  EXPECT_EQ(meaning_of(content, 0),
+            "worst found: the greatest of any run that a search of 2 million events a point found; missing in 1 of 6 "
+            "points, where some run has no such figure");
+  content.verdict[2] = "undecided";
+  EXPECT_NE(html_report(content).find("3 of 6 variants pass; the requirements of 1 point are undecided"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ class StudyTest(unittest.TestCase):
 
     def test_shipped_studies_are_sound(self):
         studies = sorted(path for path in (SOURCE / "scenarios" / "studies").glob("*.json") if path.name != "takt-study.schema.json")
-        self.assertEqual(len(studies), 9)
+        self.assertEqual(len(studies), 10)
         for study in studies:
             with self.subTest(study.name):
                 self.run_study(study, "--dry-run", "--quiet")
@@ -187,6 +187,56 @@ class StudyTest(unittest.TestCase):
         self.assertIn("did you mean \"gap\"", self.run_study(study, "--find", "max gab such that pass", status=2))
         self.assertIn("is no question", self.run_study(study, "--find", "gap", status=2))
         self.assertIn("nor a short form", self.run_study(study, "--find", "max gap such that foo < 1", status=2))
+
+    def test_a_cycle_is_not_found_by_runs_alone(self):
+        # Five runs of each level keep 1 ms up to 750 us. takt verify refutes 750 us and 500 us.
+        study = SOURCE / "tests" / "findings" / "study-of-a-cycle.json"
+        out = self.run_study(study, "--find", "max cycle such that halt <= 1ms")
+        figures = r"halt \S+ ms in runs, \S+ ms worst found, bound \S+ ms"
+        self.assertRegex(out, r"cycle = 250us +proved +holds in 5 of 5 runs; " + figures)
+        self.assertIn("max cycle such that halt <= 1ms: 250us, by the bound\n", out)
+        self.assertNotIn("confidence", out)   # that is of runs
+
+    def test_verified_points_are_stored_and_resumed(self):
+        study, store = self.folder / "study.json", self.folder / "s.sqlite"
+        text = self.study().read_text()
+        verified = ('{"name": "worst", "of": "worst.latency.x.max", "unit": "us"}, '
+                    '{"name": "bound", "of": "bound.latency.x.max", "unit": "us"}, {"name": "proved", "of": "verdict"}')
+        for old, new in (('"exponential": "20us"', '"every": "100us"'), ("/streams/0/exponential", "/streams/0/every"),
+                         ('"limits"', '"verify": {"budget": 0.1}, "limits"'),
+                         ('{"name": "mean", "of": "latency.x.mean", "unit": "us"}', verified)):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        study.write_text(text)
+        expected = results(self.run_study(study, "--out", self.folder / "whole.sqlite", "--jobs", 2))
+        self.run_study(study, "--out", store, "--shard", "1/2")
+        self.assertEqual(results(self.run_study(study, "--out", store, "--resume")), expected)
+        with sqlite3.connect(store) as database:
+            rows = database.execute("SELECT delay, worst, bound, proved FROM result").fetchall()
+            bases = [row[0] for row in database.execute("SELECT name FROM basis ORDER BY measure")]
+        database.close()
+        self.assertEqual(bases, ["run", "worst", "bound", "verdict"])
+        self.assertEqual(len(rows), 48)
+        for delay, worst, bound, proved in rows:
+            self.assertLessEqual(delay, worst)
+            self.assertLessEqual(worst, bound)
+            self.assertEqual(proved, 1)
+        out = self.run_study("report", store, "--out", self.folder / "s.html")
+        self.assertRegex(out, r"  worst .* \(worst found\)\n  bound .* \(bound\)\n")
+        page = (self.folder / "s.html").read_text()
+        self.assertIn("bound: no run exceeds it, whatever phases and chance bring", page)
+        self.assertLess(page.index("worst found: the greatest of any run"), page.index("The answer"))
+
+    def test_which_protection_survives(self):
+        store = self.folder / "s.sqlite"
+        self.run_study(SOURCE / "tests" / "findings" / "study-of-protection.json", "--out", store)
+        out = self.run_study("report", store, "--out", self.folder / "s.html")
+        first = r", the first to break: link = \S+, cut = \S+: lost <= 0 frames: \d+ frames\n"
+        self.assertRegex(out, r"175 points, .*\nprotection: variants that pass\n  FRER all +35 of 35\n"
+                              r"  FRER program +20 of 35" + first + r"  none +5 of 35" + first +
+                              r"  rerouting 2 ms +5 of 35" + first + r"  rerouting 20 ms +5 of 35" + first)
+        page = (self.folder / "s.html").read_text()
+        self.assertLess(page.index("35 of 35"), page.index("What matters"))
 
     def test_shrink(self):
         # Four outages of the receiver's link and one of the sender's: the run drops frames because of any; one is enough, for a microsecond or few.

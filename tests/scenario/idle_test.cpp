@@ -18,6 +18,7 @@ std::string line(const std::string& sw1, const std::string& streams, const std::
 const std::string control = R"({"name": "control", "from": "a", "to": "b", "payload": "40B", "every": "250us", "pcp": 7})";
 const std::string bulk = R"({"name": "bulk", "from": "a", "to": "b", "payload": "972B", "every": "500us", "pcp": 0})";
 const std::string both = control + ", " + bulk;
+const std::string quick = R"({"name": "quick", "from": "a", "to": "b", "payload": "972B", "every": "200us", "pcp": 0})";   // 41.68 Mb/s
 /// The egress of sw1 towards sw2.
 std::string egress(const std::string& text, const std::string& streams = both, const std::string& more = "") { return line(R"("egress": [{"to": "sw2", )" + text + "}]", streams, more); }
 std::string ingress(const std::string& text, const std::string& streams = both) { return line(R"("ingress": {)" + text + "}", streams); }
@@ -137,6 +138,16 @@ const IdleCase cases[] = {
      "/network/nodes/sw1/ingress/gates/0/block_octets_exceeded: a block that nothing sets off: no entry of \"g\" with \"octets\" | \"octets\" of an entry\n"},
     {"EligibilityThatNobodyMinds", ingress(R"("filters": [{"stream": "control", "ats": "s"}], "ats": [{"name": "s", "rate": "10Mbps", "burst": "200B"}])"),
      "/network/nodes/sw1/ingress/filters/0/ats: eligibility times that no port minds: class 7 at sw1:1, which is not sent by them | the class in \"ats\" of \"egress\"\n"},
+    {"GateOpenForTooShort", egress(R"("gates": {"entries": [{"open": [1], "for": "100us"}, {"open": [7], "for": "400us"}]})", control + ", " + quick),
+     "/network/nodes/sw1/egress/0/gates/entries: gates that are open for less than is asked: 100us of 500us, 20.192Mbps, for 41.68Mbps of class 1 at sw1:1, preamble and gap included | windows that carry them\n"},
+    // Each of them fits into 90 us, and both do not.
+    {"GatesOpenTogetherForTooShort", egress(R"("gates": {"entries": [{"open": [1, 7], "for": "90us"}, {"open": [2], "for": "410us"}]})"),
+     "/network/nodes/sw1/egress/0/gates/entries: gates that are open for less than is asked: 90us of 500us, 18.192Mbps, for 20.192Mbps of class 1, 7 at sw1:1, preamble and gap included | windows that carry them\n"},
+    // A window of one frame: the gap behind it lies outside.
+    {"GateOpenForOneFrame", egress(R"("gates": {"entries": [{"open": [1], "for": "82.4us"}, {"open": [7], "for": "417.6us"}]})"), ""},
+    {"CqfOfTooMuch", ingress(R"("cqf": {"cycle": "250us", "classes": [4, 5], "pcp": [0], "dead_time": "160us"})", quick),
+     "/network/nodes/sw1/ingress/cqf: cyclic queuing of more than is sent: 90us of 250us, 36.384Mbps, for 41.68Mbps at sw1:1, preamble and gap included | streams that fit\n"},
+    {"CqfOfEnough", ingress(R"("cqf": {"cycle": "250us", "classes": [4, 5], "pcp": [0], "dead_time": "140us"})", quick), ""},
     {"CqfWithoutFrames", ingress(R"("cqf": {"cycle": "500us", "classes": [4, 5]})"),
      "/network/nodes/sw1/ingress/cqf: cyclic queuing without frames: no stream that crosses \"sw1\" meets it | streams with its priorities\n"},
     {"RouteThatNobodyHasSearchedFor", plain("", R"({"name": "s", "from": "a", "to": "b", "payload": "40B", "every": "1ms", "route": "auto"})"),
@@ -190,6 +201,7 @@ std::string warnings_of_finding(const std::string& name) {
 }
 
 TEST(IdleConfiguration, OfTheFindings) {
+  EXPECT_EQ(warnings_of_finding("gate-share"), "/network/nodes/sw/egress/0/gates/entries: 50us of 500us, 100.192Mbps, for 493.44Mbps of class 4 at sw:1, preamble and gap included\n");
   EXPECT_EQ(warnings_of_finding("preemption-of-no-class"), "/network/nodes/sw1/egress/0/preemption/preemptable/0: class 0 at sw1:2: no stream goes there; priority 0 is class 1\n");
   EXPECT_EQ(warnings_of_finding("shapers-that-shape-nothing"), "/network/nodes/sw1/egress/0/shapers/0/class: class 6 at the 4 ports of sw1: no stream goes there\n"
                                                                "/network/nodes/sw1/egress/0/shapers/1/class: class 5 at the 4 ports of sw1: no stream goes there\n"

@@ -7,6 +7,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "scenario/idle/usage.hpp"
 #include "scenario/resolve/control_list.hpp"
+#include "scenario/resolve/cqf.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -34,6 +35,7 @@ class IngressTeller {
     if (ingress_.max_residence_time && ingress_.ats.empty()) warn(ingress_.where.at("max_residence_time"), "a residence time without ATS schedulers", {"no \"ats\"", "an ATS scheduler"});
     if (ingress_.cqf && met_by_cqf().empty())
       warn(ingress_.cqf->where.place(), "cyclic queuing without frames", {"no stream that crosses " + names() + " meets it", "streams with its priorities"});
+    if (ingress_.cqf) cqf(*ingress_.cqf);
   }
 
  private:
@@ -127,6 +129,23 @@ class IngressTeller {
     if (gate.block_invalid_rx && !closes) warn(gate.where.at("block_invalid_rx"), "a block that nothing sets off", {json::quote(gate.name) + " is never closed", "entries with \"open\": false"});
     if (gate.block_octets_exceeded && !counts) warn(gate.where.at("block_octets_exceeded"), "a block that nothing sets off", {"no entry of " + json::quote(gate.name) + " with \"octets\"", "\"octets\" of an entry"});
     if (!closes && !counts && !gives) warn(gate.where.place(), "a stream gate that does nothing", {json::quote(gate.name) + ", always open, without \"ipv\" and \"octets\"", "entries that close it or give an \"ipv\""});
+  }
+
+  /// What is received in a cycle must be sent in one, but for the dead time and the gap behind its last frame.
+  void cqf(const Cqf& cqf) {
+    for (const auto& [key, port] : usage_.ports()) {
+      if (!std::binary_search(nodes_.begin(), nodes_.end(), port.node)) continue;
+      double load = 0;
+      for (const std::uint8_t q : cqf.classes) load += usage_.load(port, q);
+      const Duration sends = cqf.cycle - cqf_times(cqf, usage_.resolved().topology, port.node).dead_time;
+      const Duration gap = port.link->rate.octet_time() * models::inter_packet_gap.count;
+      const double carries = static_cast<double>(port.link->rate.bits_per_second) * std::min(1.0, static_cast<double>((sends + gap).ps()) / static_cast<double>(cqf.cycle.ps()));
+      if (load <= carries * (1 + 1e-9)) continue;
+      return warn(cqf.where.place(), "cyclic queuing of more than is sent",
+                  {json::to_text(sends) + " of " + json::to_text(cqf.cycle) + ", " + json::to_text(DataRate{static_cast<std::uint64_t>(carries)}) + ", for " + json::to_text(DataRate{static_cast<std::uint64_t>(load)}) + " at " +
+                       usage_.name({&port}) + ", preamble and gap included",
+                   "streams that fit"});
+    }
   }
 
   void meter(const Meter& meter) {

@@ -70,11 +70,18 @@ class Worker {
     run.advance();
     const Node result = results::run_node(evaluation::evaluate(run, false));
     for (const std::size_t f : job_.figures) {
-      const auto figure = scenario::read_figure({text(f).where, "figure", *text(f).figure, text(f).only, {}, text(f).unit}, job_.diagnostics);
-      if (!figure) continue;
-      made_[f].value = scenario::value_of(*figure, result);
-      if (!made_[f].value) made_[f].reason = "the run has no such figure";
+      const std::optional<double> value = value_of(f, "figure", *text(f).figure, result);
+      const std::optional<double> less = text(f).less ? value_of(f, "less", *text(f).less, result) : 0;
+      if (value && less) made_[f].value = (*value - *less) * text(f).times;
     }
+  }
+  std::optional<double> value_of(std::size_t f, const char* key, const std::string& name, const Node& result) {
+    const auto figure =
+        scenario::read_figure({text(f).where, key, name, text(f).only, {}, text(f).unit}, job_.diagnostics);
+    if (!figure) return std::nullopt;
+    const std::optional<double> value = scenario::value_of(*figure, result);
+    if (!value) made_[f].reason = "the run has no such figure";
+    return value;
   }
 
   void bound(const scenario::Resolved& resolved) {

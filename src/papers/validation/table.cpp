@@ -45,6 +45,10 @@ const json::Object& describe(json::Type<FigureText>) {
       optional<&FigureText::by>("by", "By column and its value: what is put into the scenario."),
       optional<&FigureText::figure>("figure", "A figure of a run, as \"require\" takes it."),
       optional<&FigureText::only>("only", "Members that the object with the figure must have."),
+      optional<&FigureText::less>("less", "Another figure of the same run, taken off it."),
+      optional<&FigureText::times>(
+          "times", "What the difference or the figure is multiplied with, where the source's links have another rate.",
+          {.min = 0}),
       optional<&FigureText::bound>("bound", "The stream whose longest latency by analysis it is."),
       optional<&FigureText::fastest>("fastest", "The stream whose shortest latency by analysis it is."),
       optional<&FigureText::worst>("worst", "The stream whose longest latency is searched for."),
@@ -52,7 +56,8 @@ const json::Object& describe(json::Type<FigureText>) {
       optional<&FigureText::analysis>("analysis", "Of the flow."),
       optional<&FigureText::of>("of", "Of the flow."),
       optional<&FigureText::unit>("unit", "Of all numbers."),
-      required<&FigureText::published>("published", "A number, an exact fraction or \"unbounded\" as text, or a list of alternatives."),
+      required<&FigureText::published>(
+          "published", "A number, an exact fraction or \"unbounded\" as text, or a list of alternatives."),
       optional<&FigureText::shift>("shift", "What takt counts and the source does not."),
       optional<&FigureText::must_be>("must_be", "How it is judged."),
       optional<&FigureText::within>("within", "How far takt's may be off.", {.min = 0}),

@@ -32,6 +32,8 @@ struct FigureText {
   Factors by;
   std::optional<std::string> figure;         ///< of a run, as in "require"
   json::NameMap<json::Any> only;
+  std::optional<std::string> less;  ///< another figure of the same run, taken off it
+  double times = 1;  ///< what takt's figure is multiplied with: its links have another rate than the source's
   std::optional<std::string> bound;          ///< of this stream: the longest latency by analysis
   std::optional<std::string> fastest;        ///< of this stream: the shortest latency by analysis
   std::optional<std::string> worst;          ///< of this stream: the longest latency that the search finds

@@ -1,4 +1,5 @@
-// Gate lists that close for nobody, open for too short, begin after the end, hold what is not preemptable; limits of queues that nobody uses.
+// Gate lists that close for nobody, open for too short, begin after the end, hold what is not preemptable; limits of
+// queues that nobody uses.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -62,9 +63,10 @@ class GatesTeller {
               {used == 0 ? "no stream leaves through " + usage_.name(ports) : "class " + text_of_classes(used) + " in use at " + usage_.name(ports) + ", open at all times", "entries that close a class in use"});
   }
 
-  /// Classes that are asked for more than the time in which their gates are open carries: each for itself, then those that share it.
+  /// Classes that are asked for more than the time in which their gates are open carries: each for itself, then those
+  /// that share it.
   void opening(const Gates& gates, const Ports& ports) {
-    json::Diagnostics aside;   // mistakes of the list have been reported
+    json::Diagnostics aside;  // mistakes of the list have been reported
     const models::GateConfig config = gate_config_of(gates, aside);
     if (aside.has_errors()) return;
     std::array<models::ClassSet, 256> sets{};
@@ -79,18 +81,25 @@ class GatesTeller {
         const auto [open, carries] = open_for(config, set, *port);
         if (open.open == open.cycle || load <= carries * (1 + 1e-9)) continue;
         return warn_once(diagnostics_, gates.where.at("entries"), "gates that are open for less than is asked",
-                         {json::to_text(open.open) + " of " + json::to_text(open.cycle) + ", " + json::to_text(DataRate{static_cast<std::uint64_t>(carries)}) + ", for " +
-                              json::to_text(DataRate{static_cast<std::uint64_t>(load)}) + " of class " + text_of_classes(set) + " at " + usage_.name({port}) + ", preamble and gap included",
+                         {json::to_text(open.open) + " of " + json::to_text(open.cycle) + ", " +
+                              json::to_text(DataRate{static_cast<std::uint64_t>(carries)}) + ", for " +
+                              json::to_text(DataRate{static_cast<std::uint64_t>(load)}) + " of class " +
+                              text_of_classes(set) + " at " + usage_.name({port}) + ", preamble and gap included",
                           "windows that carry them"});
       }
   }
-  /// For how long at least one gate of the set is open, and how much that carries: the gap behind the last frame of a window may lie outside of it.
-  static std::pair<models::OpenShare, double> open_for(models::GateConfig config, models::ClassSet set, const PortUse& port) {
-    for (models::GateControlEntry& entry : config.admin_control_list) entry.gate_states = (entry.gate_states & set) != 0 ? models::all_gates_open : models::GateStates{0};
+  /// For how long at least one gate of the set is open, and how much that carries: the gap behind the last frame of a
+  /// window may lie outside of it.
+  static std::pair<models::OpenShare, double> open_for(models::GateConfig config, models::ClassSet set,
+                                                       const PortUse& port) {
+    for (models::GateControlEntry& entry : config.admin_control_list)
+      entry.gate_states = (entry.gate_states & set) != 0 ? models::all_gates_open : models::GateStates{0};
     const models::GateControlList list(config.admin_control_list, config.admin_cycle_time);
     const models::OpenShare open = list.open_share(0);
-    const auto gaps = static_cast<double>(port.link->rate.octet_time().ps() * models::inter_packet_gap.count) * static_cast<double>(list.windows(0).size());
-    return {open, static_cast<double>(port.link->rate.bits_per_second) * (static_cast<double>(open.open.ps()) + gaps) / static_cast<double>(open.cycle.ps())};
+    const auto gaps = static_cast<double>(port.link->rate.octet_time().ps() * models::inter_packet_gap.count) *
+                      static_cast<double>(list.windows(0).size());
+    return {open, static_cast<double>(port.link->rate.bits_per_second) * (static_cast<double>(open.open.ps()) + gaps) /
+                      static_cast<double>(open.cycle.ps())};
   }
 
   const Usage& usage_;

@@ -139,11 +139,15 @@ class IngressTeller {
       for (const std::uint8_t q : cqf.classes) load += usage_.load(port, q);
       const Duration sends = cqf.cycle - cqf_times(cqf, usage_.resolved().topology, port.node).dead_time;
       const Duration gap = port.link->rate.octet_time() * models::inter_packet_gap.count;
-      const double carries = static_cast<double>(port.link->rate.bits_per_second) * std::min(1.0, static_cast<double>((sends + gap).ps()) / static_cast<double>(cqf.cycle.ps()));
+      const double carries =
+          static_cast<double>(port.link->rate.bits_per_second) *
+          std::min(1.0, static_cast<double>((sends + gap).ps()) / static_cast<double>(cqf.cycle.ps()));
       if (load <= carries * (1 + 1e-9)) continue;
       return warn(cqf.where.place(), "cyclic queuing of more than is sent",
-                  {json::to_text(sends) + " of " + json::to_text(cqf.cycle) + ", " + json::to_text(DataRate{static_cast<std::uint64_t>(carries)}) + ", for " + json::to_text(DataRate{static_cast<std::uint64_t>(load)}) + " at " +
-                       usage_.name({&port}) + ", preamble and gap included",
+                  {json::to_text(sends) + " of " + json::to_text(cqf.cycle) + ", " +
+                       json::to_text(DataRate{static_cast<std::uint64_t>(carries)}) + ", for " +
+                       json::to_text(DataRate{static_cast<std::uint64_t>(load)}) + " at " + usage_.name({&port}) +
+                       ", preamble and gap included",
                    "streams that fit"});
     }
   }

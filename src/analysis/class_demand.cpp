@@ -9,11 +9,13 @@
 
 namespace takt::analysis {
 
-ClassDemand::ClassDemand(const PortTraffic& traffic, models::ClassSet classes, Ps octet_time) : octet_time_(octet_time) {
+ClassDemand::ClassDemand(const PortTraffic& traffic, models::ClassSet classes, Ps octet_time, models::ClassSet of_turns)
+    : octet_time_(octet_time) {
   std::map<std::size_t, Group> by_link;
   for (const PortFlow& flow : traffic.flows) {
     bool counts = false;
-    for (models::TrafficClass q = flow.lowest_class; q <= flow.highest_class; ++q) counts = counts || models::contains(classes, q);
+    for (models::TrafficClass q = flow.lowest_class; q <= flow.highest_class; ++q)
+      counts = counts || (models::contains(classes, q) && (!flow.uses_cqf || models::contains(of_turns, q)));
     if (!counts) continue;
     Group& group = by_link[flow.link];
     const Ps work = octet_time * models::wire_length(flow.frame).count;

@@ -10,8 +10,9 @@ namespace takt::analysis {
 
 class ClassDemand {
  public:
-  /// The flows of `traffic` that may be in class q, on a port with that octet time.
-  ClassDemand(const PortTraffic& traffic, models::ClassSet classes, Ps octet_time);
+  /// The flows of `traffic` that may be in one of these classes, on a port with that octet time. Those of cyclic
+  /// queuing and forwarding take turns, and are in classes `of_turns` alone.
+  ClassDemand(const PortTraffic& traffic, models::ClassSet classes, Ps octet_time, models::ClassSet of_turns = 0xFF);
 
   bool is_empty() const { return groups_.empty(); }
   /// The most work that comes in a closed interval of that length. Unbounded if a flow is, and its link does not limit it.

@@ -76,7 +76,13 @@ PortModel model_of(const scenario::Resolved& r, const GraphPort& port, const Bou
   if (bridge != nullptr && bridge->ingress && bridge->ingress->cqf) {
     const scenario::Cqf& cqf = *bridge->ingress->cqf;
     const scenario::CqfTimes times = scenario::cqf_times(cqf, r.topology, port.node.value);
-    CqfPort made{cqf.cycle.ps(), static_cast<int>(cqf.classes.size()), times.dead_time.ps(), times.offset.ps(), node.forwarding_delay.ps(), 0};
+    CqfPort made{cqf.cycle.ps(),
+                 cqf.base_time.ps(),
+                 static_cast<int>(cqf.classes.size()),
+                 times.dead_time.ps(),
+                 times.offset.ps(),
+                 node.forwarding_delay.ps(),
+                 0};
     for (const std::uint8_t q : cqf.classes) made.classes = models::with(made.classes, q);
     model.cqf = made;
   }

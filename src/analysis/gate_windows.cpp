@@ -53,17 +53,21 @@ Ps GateCycle::overhang(TrafficClass q, TrafficClass other, Ps frame, Ps gap) con
   return longest;
 }
 
-Ps GateCycle::overhang_at(const GateOpening& window, TrafficClass other, Ps frame, Ps gap) const {
-  const Ps from = window.from % cycle_;
-  if (is_open_at(other, from)) return std::min(frame, sum(close_after(other, from) - from, gap));
+Ps GateCycle::overhang_at(std::size_t window, TrafficClass q, TrafficClass other, Ps frame, Ps gap) const {
+  const Ps from = windows_[q][window].from % cycle_;
+  if (other != q && is_open_at(other, from)) return std::min(frame, sum(close_after(other, from) - from, gap));
   Ps closed_for = gap;
   for (const GateOpening& before : windows_[other]) closed_for = std::min(closed_for, ((from - before.until) % cycle_ + cycle_) % cycle_);
   return gap - closed_for;
 }
 
-PhasedSupply::PhasedSupply(const GateCycle& gates, TrafficClass q, Ps base, Ps lost_at_start, Ps lost_at_end) : cycle_(gates.cycle()), base_(base) {
-  for (const GateOpening& window : gates.windows(q))
-    if (const GateOpening left{window.from + lost_at_start, window.until - lost_at_end}; left.from <= left.until) {
+PhasedSupply::PhasedSupply(const GateCycle& gates, TrafficClass q, Ps base, const std::vector<Ps>& taken_at_starts,
+                           Ps error, Ps lost_at_end)
+    : cycle_(gates.cycle()), base_(base) {
+  const std::vector<GateOpening>& all = gates.windows(q);
+  for (std::size_t w = 0; w < all.size(); ++w)
+    if (const GateOpening left{all[w].from + taken_at_starts[w] + error, all[w].until - lost_at_end - error};
+        left.from <= left.until) {
       windows_.push_back(left);
       usable_ += left.until - left.from;
     }
@@ -92,16 +96,19 @@ Ps PhasedSupply::time_from(Ps from, Ps need) const {
     }
 }
 
-PeriodicSupply::PeriodicSupply(const GateCycle& gates, TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t slowest_ppt, std::int64_t fastest_ppt, Ps guard, const PackedWork& packed) {
+PeriodicSupply::PeriodicSupply(const GateCycle& gates, TrafficClass q, const std::vector<Ps>& taken_at_starts, Ps error,
+                               Ps lost_at_end, std::int64_t slowest_ppt, std::int64_t fastest_ppt, Ps guard,
+                               const PackedWork& packed) {
   constexpr std::int64_t one = 1'000'000'000'000;
   Ps end_of_last = -1;
   Ps first_start = 0;
   Ps more_of_last = 0;
   Ps room_of_last = -1;
   Ps packed_of_last = 0;
-  for (const GateOpening& window : gates.windows(q)) {
-    const Ps from = window.from + lost_at_start;
-    const Ps until = window.until - lost_at_end;
+  const std::vector<GateOpening>& all = gates.windows(q);
+  for (std::size_t w = 0; w < all.size(); ++w) {
+    const Ps from = all[w].from + taken_at_starts[w] + error;
+    const Ps until = all[w].until - lost_at_end - error;
     if (from > until) continue;
     if (windows_.empty())
       first_start = from;

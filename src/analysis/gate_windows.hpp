@@ -33,8 +33,9 @@ class GateCycle {
   /// How long a frame of class `other`, begun before a window of q opens, may run into it: at most `frame`, since it must end before its own gate closes,
   /// and `gap` in any case, the inter-packet gap of a frame that ends at the close.
   Ps overhang(models::TrafficClass q, models::TrafficClass other, Ps frame, Ps gap) const;
-  /// The same for one window, to the ps: nothing if the gate of `other` has been closed for a gap.
-  Ps overhang_at(const GateOpening& window, models::TrafficClass other, Ps frame, Ps gap) const;
+  /// The same for one window of q, to the ps: nothing if the gate of `other`, which may be q itself, has been closed
+  /// for a gap.
+  Ps overhang_at(std::size_t window, models::TrafficClass q, models::TrafficClass other, Ps frame, Ps gap) const;
 
  private:
   bool is_open_at(models::TrafficClass q, Ps time) const;
@@ -49,8 +50,10 @@ class GateCycle {
 /// Stretches of usable time at known phases.
 class PhasedSupply {
  public:
-  /// `base` is when a cycle of the list begins.
-  PhasedSupply(const GateCycle& gates, models::TrafficClass q, Ps base, Ps lost_at_start, Ps lost_at_end);
+  /// `base` is when a cycle of the list begins. Of each window what is left when what is taken of its start, `error`
+  /// and `lost_at_end` are taken off its ends.
+  PhasedSupply(const GateCycle& gates, models::TrafficClass q, Ps base, const std::vector<Ps>& taken_at_starts,
+               Ps error, Ps lost_at_end);
   /// The time from `from` on in which `need` of usable time passes. Unbounded if there is none.
   Ps time_from(Ps from, Ps need) const;
   /// When the windows of a cycle end.
@@ -69,9 +72,13 @@ using PackedWork = std::function<Ps(Ps room)>;
 /// Stretches of usable time that repeat.
 class PeriodicSupply {
  public:
-  /// Of each window what is left when `lost_at_start` and `lost_at_end` are taken off its ends; shrunk and stretched by the worst rates of the clock (parts in 10^12). A busy period may begin when nothing fits any more
-  /// into a window, `guard` before its end; but from the windows that begin later it takes all that `packed` says.
-  PeriodicSupply(const GateCycle& gates, models::TrafficClass q, Ps lost_at_start, Ps lost_at_end, std::int64_t slowest_ppt, std::int64_t fastest_ppt, Ps guard = 0, const PackedWork& packed = {});
+  /// Of each window what is left when what is taken of its start, `error` and `lost_at_end` are taken off its ends;
+  /// shrunk and stretched by the worst rates of the clock (parts in 10^12). A busy period may begin when nothing fits
+  /// any more into a window, `guard` before its end; but from the windows that begin later it takes all that `packed`
+  /// says.
+  PeriodicSupply(const GateCycle& gates, models::TrafficClass q, const std::vector<Ps>& taken_at_starts, Ps error,
+                 Ps lost_at_end, std::int64_t slowest_ppt, std::int64_t fastest_ppt, Ps guard = 0,
+                 const PackedWork& packed = {});
 
   /// The longest time, from any phase, in which `need` of usable time passes. Unbounded if there is none.
   Ps time_for(Ps need) const;

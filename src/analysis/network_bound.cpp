@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "analysis/by_clock.hpp"
+#include "analysis/cyclic_arrivals.hpp"
 #include "analysis/flow_sources.hpp"
 #include "models/egress/class_set.hpp"
 #include "models/ethernet/sizes.hpp"
@@ -177,6 +178,8 @@ class FixedPoint {
         // Frames that a scheduler has held come when they are eligible, not as their link brought them.
         traffic_[p].flows[i].link = is_held(graph_.hops[hops[i]]) && !result_.hops[hops[i]].is_never_held ? 0 : line_of_[hops[i]];
         traffic_[p].flows[i].phase = result_.hops[hops[i]].phase;
+        const std::optional<CyclicArrival>& cyclic = result_.hops[hops[i]].cyclic;
+        traffic_[p].flows[i].cyclic = cyclic ? std::optional(cyclic->comes) : std::nullopt;
       }
       result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
       for (std::size_t i = 0; i < hops.size(); ++i) {
@@ -185,12 +188,14 @@ class FixedPoint {
         if (header_after_[p]) {
           hop.delay = hop.least_delay = hop.reason.empty() ? *header_after_[p] : unbounded_ps;
           hop.leaves.reset();
+          hop.cycle.reset();
           note_left(hops[i]);
           continue;
         }
         hop.delay = graph_.hops[hops[i]].unsupported.empty() && hop.reason.empty() ? bound.delay : unbounded_ps;
         hop.least_delay = bound.least_delay;
         hop.leaves = is_bounded(hop.delay) ? bound.leaves : std::nullopt;
+        hop.cycle = is_bounded(hop.delay) ? bound.cycle : std::nullopt;
         note_left(hops[i]);
       }
       // Schedulers that share a group wait for each other's frames, so all of them are looked at once all delays here are known.
@@ -242,14 +247,21 @@ class FixedPoint {
     const ClockQuality& clock = graph_.models[hop.port].clock;
     if (hop.metered) arrivals.add(by_clock(*hop.metered, clock));
     if (is_held(hop)) arrivals.add(by_clock(hop.ats->shaped, clock));
+    const std::optional<CyclicArrival> cyclic =
+        is_held(hop) ? std::nullopt : cyclic_arrival(r_, graph_, result_.hops, h);
+    if (cyclic)
+      arrivals.add(by_clock(ArrivalPattern{cyclic->comes.period, cyclic->comes.frames, 0, cyclic->comes.width}, clock));
     const bool is_never_held = is_held(hop) && holds_nobody(hop);
     if (!hop.parents.empty() && graph_.ports[graph_.hops[hop.parents.front()].port].may_double) arrivals = multiplied(arrivals, 2);
     const std::optional<ArrivalPhase> phase = phase_of(h, best, worst);
-    if (is_known_[h] && result.best == best && result.worst == worst && phase == result.phase && is_never_held == result.is_never_held && same(arrivals, arrivals_[h])) return;
+    if (is_known_[h] && result.best == best && result.worst == worst && phase == result.phase &&
+        cyclic == result.cyclic && is_never_held == result.is_never_held && same(arrivals, arrivals_[h]))
+      return;
     is_known_[h] = true;
     result.best = best;
     result.worst = worst;
     result.phase = phase;
+    result.cyclic = cyclic;
     result.is_never_held = is_never_held;
     note_left(h);
     arrivals_[h] = std::move(arrivals);
@@ -263,21 +275,26 @@ class FixedPoint {
     return header ? *header - port.octet_time * (models::wire_length(graph_.hops[h].frame) - models::inter_packet_gap).count : 0;
   }
 
-  /// From production to the last bit: by the hops so far and this one, and by the schedule.
+  /// From production to the last bit: by the hops so far and this one, and by the schedule or the cycles of the port.
   void note_left(std::uint32_t h) {
     HopResult& hop = result_.hops[h];
     const std::optional<ArrivalPhase>& produced = graph_.flows[graph_.hops[h].flow].produced;
     hop.best_left = sum(hop.best, hop.least_delay);
     hop.worst_left = sum(hop.worst, hop.delay);
+    if (hop.cycle && is_bounded(hop.worst)) {
+      hop.best_left = std::max(hop.best_left, begins_at_least(hop) + hop.cycle->least_sent);
+      hop.worst_left = std::min(hop.worst_left, begins_at_most(hop) + hop.cycle->greatest_sent);
+    }
     if (!hop.leaves || !produced) return;
     const std::int64_t rate_ppt = graph_.models[graph_.hops[h].port].clock.rate_ppt;
     hop.worst_left = std::min(hop.worst_left, scaled_up(std::max<Ps>(0, hop.leaves->first + hop.leaves->width - produced->first), one_ppt + rate_ppt, one_ppt));
     hop.best_left = std::max(hop.best_left, scaled_down(std::max<Ps>(0, hop.leaves->first - produced->first - produced->width), one_ppt - rate_ppt, one_ppt));
   }
-  /// The schedule of the port says more than how long frames may be there.
+  /// The schedule or the cycles of the port say more than how long frames may be there.
   bool takes_up_jitter(std::uint32_t h) const {
     const HopResult& hop = result_.hops[h];
-    return hop.leaves && (hop.worst_left < sum(hop.worst, hop.delay) || hop.best_left > sum(hop.best, hop.least_delay));
+    return (hop.leaves || hop.cycle) &&
+           (hop.worst_left < sum(hop.worst, hop.delay) || hop.best_left > sum(hop.best, hop.least_delay));
   }
 
   /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.

@@ -11,6 +11,14 @@
 
 namespace takt::analysis {
 
+/// A frame that the port before sends by cyclic queuing and forwarding.
+struct CyclicArrival {
+  CyclicFrames comes;  ///< to this port
+  Ps best = 0;         ///< from production to the start of the cycle in which it was sent
+  Ps worst = 0;
+  bool operator==(const CyclicArrival&) const = default;
+};
+
 struct HopResult {
   Ps best = 0;                    ///< from production to the arrival at the port
   Ps worst = 0;
@@ -20,6 +28,8 @@ struct HopResult {
   Ps worst_left = 0;
   std::optional<ArrivalPhase> phase;   ///< when frames come to the port, if that is known
   std::optional<ArrivalPhase> leaves;  ///< when their last bits leave it, where a schedule of gates says it
+  std::optional<CyclicArrival> cyclic;  ///< if the port before has cycles
+  std::optional<SendingCycle> cycle;    ///< if this one has
   bool is_never_held = false;     ///< an ATS scheduler is there, but all of its group keep to their buckets
   bool may_drop = false;          ///< what polices the flow before this port may drop its frames
   std::string reason;             ///< why `worst` is unbounded, if this hop is where it begins

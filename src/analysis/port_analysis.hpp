@@ -1,4 +1,5 @@
-// The analysis of one port, class by class. For port_bound.cpp, port_schedule.cpp, port_shares.cpp and port_windows.cpp alone; everybody else calls bound_port().
+// The analysis of one port, class by class. For port_bound.cpp, port_cqf.cpp, port_schedule.cpp, port_shares.cpp and
+// port_windows.cpp alone; everybody else calls bound_port().
 #pragma once
 
 #include <algorithm>
@@ -26,20 +27,24 @@ class PortAnalysis {
   PortAnalysis(const PortModel& model, const PortTraffic& traffic)
       : model_(model), traffic_(traffic), config_(*model.config), octet_(model.octet_time), gap_(octet_ * models::inter_packet_gap.count) {
     bound_.flows.resize(traffic.flows.size());
-    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q) demands_.emplace_back(traffic, models::with(0, q), octet_);
+    for (models::TrafficClass q = 0; q < models::traffic_class_count; ++q)
+      demands_.emplace_back(traffic, models::with(0, q), octet_,
+                            model.cqf ? model.cqf->classes : models::ClassSet{0xFF});
     shaped_rate_.fill(std::numeric_limits<double>::infinity());
     shaped_burst_.fill(std::numeric_limits<double>::infinity());
+    burst_behind_block_.fill(std::numeric_limits<double>::infinity());
     if (config_.shaping.gates) gates_.emplace_back(with_hold(*config_.shaping.gates));
     for (const models::GateConfig& gates : model.more_gates) gates_.emplace_back(with_hold(gates));
   }
 
   PortBound run() {
-    if (model_.cqf) bound_cqf();
     // Express classes first: preemptable ones wait for all of them.
     for (const bool preemptable : {false, true})
       for (const bool shared : {false, true})   // those that share bandwidth wait for all others
-        for (models::TrafficClass q = models::traffic_class_count; q-- > 0;)
+        for (models::TrafficClass q = models::traffic_class_count; q-- > 0;) {
+          if (!preemptable && !shared && model_.cqf && q == models::highest_class(model_.cqf->classes)) bound_cqf();
           if (is_preemptable(q) == preemptable && is_shared(q) == shared) bound_class(q);
+        }
     for (models::TrafficClass q = models::traffic_class_count; q-- > 0;) refine_by_phases(q);
     return std::move(bound_);
   }
@@ -97,8 +102,27 @@ class PortAnalysis {
     return longest;
   }
 
-  /// What classes that go before q send in an interval of that length in which q waits: closed at its end. Those with which it shares bandwidth do not count.
-  Ps interference(models::TrafficClass q, Ps length) const {
+  /// What frames that begin before a window of q take of it, by window: of classes that are open then, and the gap
+  /// behind those that have just closed, q itself among them.
+  std::vector<Ps> taken_at_starts(const GateCycle& gates, models::TrafficClass q, bool with_own = true) const {
+    const std::vector<GateOpening>& windows = gates.windows(q);
+    std::vector<Ps> taken(
+        windows.size(),
+        holds_ ? overhang(gates, q) : 0);  // before a hold the gates of preemptable classes only count as closed
+    for (std::size_t w = 0; w < windows.size(); ++w)
+      for (models::TrafficClass other = 0; other < models::traffic_class_count; ++other) {
+        if (demands_[other].is_empty() || (other == q && !with_own)) continue;
+        // Frames of a class that goes before are counted as they come, whenever they begin.
+        const bool is_counted = other != q && goes_before(other, q) && overlap(q, other);
+        taken[w] = std::max(taken[w], is_counted ? gap_ : gates.overhang_at(w, q, other, block_of(other, q), gap_));
+      }
+    return taken;
+  }
+
+  /// What classes that go before q send in an interval of that length in which q waits: closed at its end. Those with
+  /// which it shares bandwidth do not count. Behind a block, which begins the interval, none of them has credit: what
+  /// begins is a frame of another class.
+  Ps interference(models::TrafficClass q, Ps length, bool is_behind_block = false) const {
     Ps all = 0;
     for (models::TrafficClass h = 0; h < models::traffic_class_count; ++h) {
       const ClassDemand& demand = demands_[h];
@@ -106,7 +130,9 @@ class PortAnalysis {
       // Who has waited for a gate or for credit may have a backlog when the interval begins; but what is sent has come within its delay.
       const Ps reach = is_work_conserving(h) ? length : sum(length, class_delay_[h]);
       Ps work = demand.work(reach);
-      if (is_shaped(h)) work = std::min(work, rounded_up(shaped_burst_[h] + shaped_rate_[h] * static_cast<double>(length)));
+      if (is_shaped(h))
+        work = std::min(work, rounded_up((is_behind_block ? burst_behind_block_[h] : shaped_burst_[h]) +
+                                         shaped_rate_[h] * static_cast<double>(length)));
       if (is_preemptable(q) && !is_preemptable(h)) work = sum(work, product(octet_ * models::overhead_of_a_cut.count, std::min(demand.frames(reach), work / demand.shortest() + 1)));
       all = sum(all, work);
     }
@@ -176,7 +202,8 @@ class PortAnalysis {
       if (gates.is_always_open(q)) continue;
       const Ps hold = is_preemptable(q) ? hold_advance_ : 0;   // asked for so long before a window closes
       const bool is_whole = model_.counts_packets && !is_preemptable(q) && !holds_;
-      all.emplace_back(gates, q, overhang(gates, q) + model_.clock.error, guard + model_.clock.error + hold, model_.clock.slowest_ppt, model_.clock.fastest_ppt, guard,
+      all.emplace_back(gates, q, taken_at_starts(gates, q), model_.clock.error, guard + hold, model_.clock.slowest_ppt,
+                       model_.clock.fastest_ppt, guard,
                        is_whole ? PackedWork([&](Ps room) { return packed(q, room); }) : PackedWork());
     }
     return all;
@@ -200,7 +227,15 @@ class PortAnalysis {
   Ps packed(models::TrafficClass q, Ps room) const;
   std::optional<Ps> repeats_after(models::TrafficClass q, const Service& service) const;
   Ps wait_in_full_queue(models::TrafficClass q);
-  double greatest_credit(models::TrafficClass q, double idle_share, double before_rate, double before_burst) const;
+  /// What goes before a class sends at most burst + rate * t, as a share of the port's rate.
+  struct Line {
+    double rate = 0;
+    double burst = 0;
+  };
+  Line what_goes_before(models::TrafficClass q, bool is_behind_block) const;
+  double longest_own_block(models::TrafficClass q, double idle_share, const Line& before) const;
+  double credit_of_line(models::TrafficClass q, double idle_share, const Line& before) const;
+  double greatest_credit(models::TrafficClass q, double idle_share, const Line& before) const;
   std::optional<Service> service_of(models::TrafficClass q, std::string& reason);
   bool make_shaped(models::TrafficClass q, Service& service, std::string& reason);
   void bound_class(models::TrafficClass q);
@@ -216,7 +251,14 @@ class PortAnalysis {
   std::vector<Ps> waits_at_phases(models::TrafficClass q, const Service& service, Ps busy) const;
   void refine_by_phases(models::TrafficClass q);
   bool phases_count(models::TrafficClass q) const;
+  struct CycleOfCqf;
   void bound_cqf();
+  Ps behind_its_header(const PortFlow& flow) const;
+  CycleOfCqf count_cycle() const;
+  std::int64_t frames_in_a_cycle(const PortFlow& flow, Ps length) const;
+  std::optional<Ps> sent_in_a_cycle(models::TrafficClass q, Ps work) const;
+  std::string objection_to_cqf() const;
+  SendingCycle sending_cycle(const PortFlow& flow, std::int64_t frames, Ps greatest_sent) const;
   void set_unbounded(models::TrafficClass q, std::string reason) { bound_.classes[q].reason = std::move(reason); }
 
   const PortModel& model_;
@@ -234,6 +276,8 @@ class PortAnalysis {
   std::array<Ps, models::traffic_class_count> busy_{};               // the longest busy period, without phases; 0: not known
   std::array<double, models::traffic_class_count> shaped_rate_{};    // of each shaped class: what it sends in t is at most burst + rate * t
   std::array<double, models::traffic_class_count> shaped_burst_{};
+  std::array<double, models::traffic_class_count>
+      burst_behind_block_{};  // the same from the start of a frame of another class on
 };
 
 }  // namespace takt::analysis

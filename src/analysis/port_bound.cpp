@@ -30,7 +30,7 @@ bool PortAnalysis::make_shaped(TrafficClass q, Service& service, std::string& re
   double closed = 0;          // the most that the gate is closed beyond its long-run share
   double lost_share = 0;      // lost at ends of windows, in the long run and at once
   double lost = 0;
-  const double guard = static_cast<double>(demands_[q].longest());
+  const auto longest = static_cast<double>(demands_[q].longest());
   if (gates_.size() > 1) {
     reason = "the gate list of a shaped class changes";
     return false;
@@ -40,66 +40,110 @@ bool PortAnalysis::make_shaped(TrafficClass q, Service& service, std::string& re
     const auto cycle = static_cast<double>(gates.cycle());
     open_share = static_cast<double>(gates.open(q)) / cycle;
     closed = cycle;
-    const double loss = guard + static_cast<double>(overhang(gates, q) + 2 * model_.clock.error);
+    const double loss = longest + static_cast<double>(overhang(gates, q) + 2 * model_.clock.error);
     lost_share = loss * static_cast<double>(gates.windows(q).size()) / cycle;
     lost = loss * static_cast<double>(gates.windows(q).size() + 1);
-    service.windows.emplace_back(gates, q, model_.clock.error, model_.clock.error, model_.clock.slowest_ppt, model_.clock.fastest_ppt);
+    service.windows.emplace_back(gates, q, std::vector<Ps>(gates.windows(q).size(), 0), model_.clock.error, 0,
+                                 model_.clock.slowest_ppt, model_.clock.fastest_ppt);
   }
   const bool scales = config_.shaping.shaper_of(q)->of_whole_cycle;
   service.idle_share = scales ? admin / open_share : admin;
   const double whole_share = service.idle_share * open_share;
-  double before_rate = lost_share;
-  double before_burst = lost + static_cast<double>(std::max(blocking(q), demands_[q].longest()));
-  if (model_.counts_packets && blocking(q) >= demands_[q].longest()) before_burst = lost + static_cast<double>(blocking(q));
+  // With gates, and where frames are cut, classes before it may have credit when it begins to wait.
+  const bool is_plain = service.windows.empty() && !config_.preemption;
+  Line before = what_goes_before(q, is_plain);
+  before.rate += lost_share;
+  before.burst += lost;
+  const double taken = before.rate / open_share;
+  if (!(service.idle_share + taken <= 1 + 1e-12) || !(before.burst < 1e30) || taken >= 1) {
+    reason = "the idle slope and what goes before the class use up the link";
+    return false;
+  }
+  if (is_plain) {
+    service.credit =
+        std::min(credit_of_line(q, service.idle_share, before), greatest_credit(q, service.idle_share, before));
+  } else {
+    const auto block = static_cast<double>(model_.counts_packets && blocking(q) >= demands_[q].longest()
+                                               ? blocking(q)
+                                               : std::max(blocking(q), demands_[q].longest()));
+    service.credit = service.idle_share * (block + before.burst + before.rate * closed / open_share) / (1 - taken);
+    if (service.windows.empty())
+      service.credit =
+          std::min(service.credit, greatest_credit(q, service.idle_share, {before.rate, before.burst + block}));
+  }
+  shaped_rate_[q] = whole_share;
+  // Credit is what it is at most when an interval begins, and what one frame costs is the least that is left when it
+  // ends.
+  shaped_burst_[q] = service.credit + (is_plain ? 1 - service.idle_share : 1) * longest + service.idle_share * closed;
+  burst_behind_block_[q] = is_plain ? (1 - service.idle_share) * longest : shaped_burst_[q];
+  return true;
+}
+
+PortAnalysis::Line PortAnalysis::what_goes_before(TrafficClass q, bool is_behind_block) const {
+  Line before;
   for (TrafficClass h = 0; h < traffic_class_count; ++h) {
     const ClassDemand& demand = demands_[h];
     if (h == q || demand.is_empty() || !goes_before(h, q) || !overlap(q, h)) continue;
     double h_rate = demand.rate();
     double h_burst = demand.burst();
-    if (!is_work_conserving(h)) {
-      if (is_shaped(h)) {
-        h_rate = shaped_rate_[h];
-        h_burst = shaped_burst_[h];
-      } else {
-        h_burst = is_bounded(class_delay_[h]) ? h_burst + h_rate * static_cast<double>(class_delay_[h]) : std::numeric_limits<double>::infinity();
-      }
+    if (is_shaped(h)) {
+      h_rate = shaped_rate_[h];
+      h_burst = is_behind_block ? burst_behind_block_[h] : shaped_burst_[h];
+    } else if (!is_work_conserving(h)) {
+      h_burst = is_bounded(class_delay_[h]) ? h_burst + h_rate * static_cast<double>(class_delay_[h])
+                                            : std::numeric_limits<double>::infinity();
     }
     const bool cuts = is_preemptable(q) && !is_preemptable(h);
     const double more = cuts ? 1 + static_cast<double>(octet_ * models::overhead_of_a_cut.count) / static_cast<double>(demand.shortest()) : 1;
-    before_rate += more * h_rate;
-    before_burst += more * h_burst + (cuts ? static_cast<double>(octet_ * models::overhead_of_a_cut.count) : 0);
+    before.rate += more * h_rate;
+    before.burst += more * h_burst + (cuts ? static_cast<double>(octet_ * models::overhead_of_a_cut.count) : 0);
   }
-  const double taken = before_rate / open_share;
-  if (!(service.idle_share + taken <= 1 + 1e-12) || !(before_burst < 1e30) || taken >= 1) {
-    reason = "the idle slope and what goes before the class use up the link";
-    return false;
-  }
-  const double wait = (before_burst + before_rate * closed / open_share) / (1 - taken);
-  service.credit = service.idle_share * wait;
-  if (service.windows.empty()) service.credit = std::min(service.credit, greatest_credit(q, service.idle_share, before_rate, before_burst));
-  shaped_rate_[q] = whole_share;
-  shaped_burst_[q] = service.credit + static_cast<double>(demands_[q].longest()) + service.idle_share * closed;
-  return true;
+  return before;
+}
+
+/// The longest frame of its own behind which the class may come to more credit than ever before: it costs (1 - i) l,
+/// and what goes before sends (r l + b) / (1 - r) since it began, for i times as much credit. Nothing if no frame is as
+/// short as that.
+double PortAnalysis::longest_own_block(TrafficClass q, double idle_share, const Line& before) const {
+  const auto longest = static_cast<double>(demands_[q].longest());
+  const double spare = 1 - idle_share - before.rate;
+  const double most = spare > 1e-9 ? std::min(longest, idle_share * before.burst / spare * (1 + 1e-9)) : longest;
+  return most < static_cast<double>(demands_[q].shortest()) ? 0 : most;
+}
+
+/// The greatest credit by lines. When the class begins to have credit and to wait, behind one frame of a lower class or
+/// of its own, none of those before it has credit: so in t after that frame began each shaped one sends at most (1 -
+/// slope) * frame + slope * t (de Azua and Boyer, RTNS 2014, with frames of one's own).
+double PortAnalysis::credit_of_line(TrafficClass q, double idle_share, const Line& before) const {
+  const double lower = (static_cast<double>(blocking(q)) + before.burst) / (1 - before.rate);
+  const double own = (before.rate * longest_own_block(q, idle_share, before) + before.burst) / (1 - before.rate);
+  return idle_share * std::max(lower, own);
 }
 
 /// The greatest credit, interval by interval. Let the class wait with credit, and let the classes before it be busy since L. They have sent T(L) = min over s of (B + what comes to them in s) + L - s, no more than L;
 /// in the rest of L this class sends. So its credit is at most T(L) - (1 - i) L, and less by i * B if what began before them was a frame of its own, which costs credit.
-double PortAnalysis::greatest_credit(TrafficClass q, double idle_share, double before_rate, double before_burst) const {
+double PortAnalysis::greatest_credit(TrafficClass q, double idle_share, const Line& before) const {
+  const bool is_behind_block = !config_.preemption;
+  const Ps own_block = is_behind_block ? rounded_up(longest_own_block(q, idle_share, before)) : demands_[q].longest();
   double greatest = 0;
   for (const bool begins_with_own : {false, true}) {
-    const Ps block = !model_.counts_packets ? 0 : begins_with_own ? demands_[q].longest() : blocking(q);
+    if (begins_with_own && longest_own_block(q, idle_share, before) <= 0 && is_behind_block) continue;
+    const Ps block = !model_.counts_packets ? 0
+                     : begins_with_own      ? std::min(own_block, demands_[q].longest())
+                                            : blocking(q);
     const double offset = begins_with_own ? idle_share * static_cast<double>(block) : 0;
     Ps first = block;   // the end of the first busy period of the others
     for (int step = 0;; ++step) {
-      const Ps next = sum(block, interference(q, first));
+      const Ps next = sum(block, interference(q, first, is_behind_block));
       if (step == most_steps || next > longest_search_ps) return std::numeric_limits<double>::infinity();
       if (next <= first) break;
       first = next;
     }
     greatest = std::max(greatest, idle_share * static_cast<double>(first) - offset);
     // Later peaks are lower than the line above all of them, which falls.
-    if (1 - idle_share - before_rate < 1e-6) return std::numeric_limits<double>::infinity();
-    const double last = (static_cast<double>(block) + before_burst - greatest - offset) / (1 - idle_share - before_rate);
+    if (1 - idle_share - before.rate < 1e-6) return std::numeric_limits<double>::infinity();
+    const double last =
+        (static_cast<double>(block) + before.burst - greatest - offset) / (1 - idle_share - before.rate);
     if (!(last < static_cast<double>(longest_search_ps))) return std::numeric_limits<double>::infinity();
     const Ps end = rounded_up(std::max(0.0, last));
     std::vector<Ps> instants{first, std::max(first, end)};
@@ -118,7 +162,7 @@ double PortAnalysis::greatest_credit(TrafficClass q, double idle_share, double b
       for (Ps from = instants[i], step = (instants[i + 1] - from) / looks_at_a_slope + 1; from < instants[i + 1]; from += step) {
         const Ps until = std::min(from + step, instants[i + 1]);
         // Up to just before `until` no more is there to be sent than this.
-        const Ps there = sum(block, interference(q, until - 1));
+        const Ps there = sum(block, interference(q, until - 1, is_behind_block));
         const Ps peak = std::min(until, from + std::max<Ps>(0, there - sent));
         sent = std::min(sent + (peak - from), there);
         greatest = std::max(greatest, static_cast<double>(sent) - (1 - idle_share) * static_cast<double>(peak) - offset);
@@ -183,6 +227,10 @@ void PortAnalysis::bound_class(TrafficClass q) {
   PortClassBound& bound = bound_.classes[q];
   bound.is_used = true;
   class_delay_[q] = unbounded_ps;
+  for (std::size_t f = 0; f < traffic_.flows.size(); ++f)
+    if (const PortFlow& flow = traffic_.flows[f]; is_in_class(flow, q))
+      bound_.flows[f].least_delay =
+          model_.counts_packets ? octet_ * models::wire_length(flow.shortest.value_or(flow.frame)).count - gap_ : 0;
   std::string missed;
   const std::optional<SequenceBound> sequence = sequence_of(q, missed);
   std::vector<Ps> delays;
@@ -212,7 +260,6 @@ void PortAnalysis::bound_class(TrafficClass q) {
       made.leaves = ArrivalPhase{flow.phase->first + times.earliest + shrunk(last_bit), flow.phase->period, times.latest - times.earliest + stretched(last_bit) - shrunk(last_bit)};
     }
     made.delay = q != flow.highest_class ? std::max(made.delay, delay) : delay;   // or it was bounded in a higher class already
-    made.least_delay = model_.counts_packets ? octet_ * models::wire_length(flow.shortest.value_or(flow.frame)).count - gap_ : 0;
     class_delay_[q] = std::max(class_delay_[q], delay);
   }
   if (!is_bounded(class_delay_[q])) {
@@ -259,11 +306,22 @@ Ps PortAnalysis::wait_in_full_queue(TrafficClass q) {
   return unbounded_ps;
 }
 
-/// A class with all of the link, or of its windows, may never be done. But if in each L, a multiple of all periods, no more comes than is sent, a frame that comes L after another one waits for no longer: what has
-/// come before it is more by as much as is sent in L. So nobody who comes later than L, and after links have ceased to limit what comes, need be looked at.
+/// A class with all of the link, of its windows, or of its slope, may never be done. But if in each L, a multiple of
+/// all periods, no more comes than is sent, a frame that comes L after another one waits for no longer: what has come
+/// before it is more by as much as is sent in L. So nobody who comes later than L, and after links have ceased to limit
+/// what comes, need be looked at.
 std::optional<Ps> PortAnalysis::repeats_after(TrafficClass q, const Service& service) const {
-  if (service.is_shaped || is_preemptable(q) || config_.shaping.is_timed(q) || is_shared(q)) return std::nullopt;
+  if (is_preemptable(q) || config_.shaping.is_timed(q) || is_shared(q)) return std::nullopt;
   std::optional<Ps> length = demands_[q].common_period(1, longest_search_ps);
+  if (service.is_shaped) {  // what goes before it is in its credit
+    if (!length || !service.windows.empty()) return std::nullopt;
+    const sim::int128 slope =
+        static_cast<sim::int128>(config_.shaping.shaper_of(q)->idle_slope.bits_per_second) * octet_;
+    const Ps settled = demands_[q].settled_after();
+    const bool keeps_up =
+        static_cast<sim::int128>(demands_[q].work_in_each(*length)) * (8 * one_ppt) <= slope * *length;
+    return keeps_up && is_bounded(sum(settled, *length)) ? std::optional(settled + *length) : std::nullopt;
+  }
   std::vector<TrafficClass> classes{q};
   for (TrafficClass h = 0; h < traffic_class_count; ++h) {
     if (h == q || demands_[h].is_empty() || !goes_before(h, q) || !overlap(q, h)) continue;
@@ -372,57 +430,6 @@ std::vector<Ps> PortAnalysis::delays_in_busy_period(TrafficClass q, std::string&
     if (!waits.empty() && flow.phase) delays[f] = std::min(delays[f], sum(waits[scheduled++], works[work] - gap_));
   }
   return delays;
-}
-
-/// What comes in a cycle is sent in the next one but (buffers - 2), if it fits.
-void PortAnalysis::bound_cqf() {
-  const CqfPort& cqf = *model_.cqf;
-  const ClassDemand demand(traffic_, cqf.classes, octet_);
-  if (demand.is_empty()) return;
-  TrafficClass highest = 0;
-  for (TrafficClass q = 0; q < traffic_class_count; ++q)
-    if (is_in_cqf(q)) {
-      bound_.classes[q].is_used = !demands_[q].is_empty();
-      class_delay_[q] = unbounded_ps;
-      highest = std::max(highest, q);
-    }
-  Ps needed = sum(cqf.forwarding_delay, demand.work(cqf.cycle), 2 * model_.clock.error);
-  Ps blocked = 0;
-  std::string reason = "what comes in a cycle does not fit into one";
-  for (TrafficClass h = 0; h < traffic_class_count; ++h) {
-    if (is_in_cqf(h) || demands_[h].is_empty()) continue;
-    if (goes_before(h, highest))
-      needed = sum(needed, is_work_conserving(h) ? demands_[h].work(cqf.cycle) : unbounded_ps, demands_[h].longest());
-    else
-      blocked = std::max(blocked, demands_[h].longest());
-  }
-  const bool fits = sum(needed, blocked, gap_) <= cqf.cycle - cqf.dead_time;
-  const bool all_use_it = std::all_of(traffic_.flows.begin(), traffic_.flows.end(), [&](const PortFlow& flow) { return flow.uses_cqf || (!is_in_cqf(flow.highest_class) && !is_in_cqf(flow.lowest_class)); });
-  if (!all_use_it) reason = "frames that do not pass the stream gate share the classes of cyclic queuing and forwarding";
-  if (!model_.clock.is_synchronised) reason = "cyclic queuing and forwarding on clocks that drift apart";
-  const Ps delay = cqf.cycle * cqf.buffers - cqf.offset - cqf.dead_time - cqf.forwarding_delay + 2 * model_.clock.error;
-  const Ps waits = std::max<Ps>(0, cqf.cycle * (cqf.buffers - 2) - cqf.offset - cqf.forwarding_delay - 2 * model_.clock.error);
-  if (config_.preemption) reason = "cyclic queuing and forwarding with preemption";
-  bool is_held_back = false;  // by more than its cycle
-  for (TrafficClass q = 0; q < traffic_class_count; ++q) is_held_back = is_held_back || (is_in_cqf(q) && (is_shaped(q) || is_shared(q) || config_.shaping.is_timed(q)));
-  if (is_held_back) reason = "cyclic queuing and forwarding in classes with a shaper";
-  const bool holds = fits && all_use_it && model_.clock.is_synchronised && !config_.preemption && !is_held_back;
-  for (TrafficClass q = 0; q < traffic_class_count; ++q) {
-    if (!is_in_cqf(q)) continue;
-    if (!holds) {
-      bound_.classes[q].reason = reason;
-      continue;
-    }
-    class_delay_[q] = delay;
-    bound_.classes[q].backlog = demand.work(delay);
-    bound_.classes[q].backlog_frames = demand.frames(delay);
-  }
-  for (std::size_t f = 0; f < traffic_.flows.size(); ++f) {
-    const PortFlow& flow = traffic_.flows[f];
-    if (!is_in_cqf(flow.highest_class)) continue;
-    bound_.flows[f].delay = holds ? delay : unbounded_ps;
-    bound_.flows[f].least_delay = octet_ * models::wire_length(flow.shortest.value_or(flow.frame)).count - gap_ + (holds ? waits : 0);
-  }
 }
 
 PortBound bound_port(const PortModel& model, const PortTraffic& traffic) { return PortAnalysis(model, traffic).run(); }

@@ -41,9 +41,21 @@ struct ArrivalPhase {
   bool operator==(const ArrivalPhase&) const = default;
 };
 
+/// Frames of a flow that come or leave cycle by cycle, as cyclic queuing and forwarding sends them: at most so many
+/// between first + k * period and `width` later, by the time that all synchronised clocks follow.
+struct CyclicFrames {
+  Ps first = 0;
+  Ps period = 0;
+  Ps width = 0;
+  std::int64_t frames = 0;
+  Ps sent_from = 0;  ///< when the cycle k = 0 begins in which the port before sends them
+  bool operator==(const CyclicFrames&) const = default;
+};
+
 struct PortFlow {
   FrameArrivals arrivals;
   std::optional<ArrivalPhase> phase = {};
+  std::optional<CyclicFrames> cyclic = {};   ///< of what the port before sends by cyclic queuing and forwarding
   sim::Octets frame{0};                      ///< DA to FCS; the longest one
   models::TrafficClass lowest_class = 0;     ///< two where cyclic queuing and forwarding takes turns
   models::TrafficClass highest_class = 0;
@@ -57,6 +69,7 @@ struct PortFlow {
 /// A port's part in cyclic queuing and forwarding (see scenario/resolve/cqf.hpp).
 struct CqfPort {
   Ps cycle = 0;
+  Ps base = 0;  ///< when a cycle of sending begins
   int buffers = 2;
   Ps dead_time = 0;
   Ps offset = 0;
@@ -81,10 +94,24 @@ struct PortModel {
   bool counts_packets = true;   ///< false: bits leave as they come, no frame is waited for. Wrong, for tests of tests
 };
 
+/// In which cycle a frame is sent by cyclic queuing and forwarding. Lengths of true time.
+struct SendingCycle {
+  CyclicFrames leaves;  ///< last bits
+  Ps least_wait = 0;    ///< from the arrival to the start of that cycle; negative: the cycle may have begun
+  Ps greatest_wait = 0;
+  bool follows = false;  ///< the port before has cycles of the same length, so the next two are known
+  Ps least_step = 0;     ///< from the start of the cycle in which the port before sent the frame
+  Ps greatest_step = 0;
+  Ps least_sent = 0;  ///< from the start of the cycle to the last bit
+  Ps greatest_sent = 0;
+  bool operator==(const SendingCycle&) const = default;
+};
+
 struct PortFlowBound {
   Ps delay = unbounded_ps;           ///< from arrival to the last bit, preamble included
   Ps least_delay = 0;
   std::optional<ArrivalPhase> leaves = {};   ///< when the last bits do, where a schedule of gates says it
+  std::optional<SendingCycle> cycle = {};    ///< of cyclic queuing and forwarding
 };
 
 struct PortClassBound {

@@ -25,15 +25,9 @@ SequenceWindows PortAnalysis::windows_of(const GateCycle& gates, TrafficClass q)
   made.base = gates.base();
   made.error = model_.clock.error;
   made.is_always_open = gates.is_always_open(q);
-  for (const GateOpening& window : gates.windows(q)) {
-    Ps taken = holds_ ? overhang(gates, q) : 0;   // before a hold the gates of preemptable classes only count as closed
-    for (TrafficClass other = 0; other < traffic_class_count; ++other) {
-      if (other == q || demands_[other].is_empty()) continue;
-      // Frames of a class that goes before are counted as they come, whenever they begin.
-      taken = std::max(taken, goes_before(other, q) && overlap(q, other) ? gap_ : gates.overhang_at(window, other, block_of(other, q), gap_));
-    }
-    made.windows.push_back({window.from, window.until, taken});
-  }
+  const std::vector<Ps> taken = taken_at_starts(gates, q, false);  // each frame of its own counts with its gap
+  for (std::size_t w = 0; w < taken.size(); ++w)
+    made.windows.push_back({gates.windows(q)[w].from, gates.windows(q)[w].until, taken[w]});
   return made;
 }
 
@@ -120,7 +114,7 @@ std::vector<Ps> PortAnalysis::waits_at_phases(TrafficClass q, const Service& ser
   for (const GateCycle& gates : gates_) {
     // Clocks that are off by their error, and drift while a frame waits.
     const Ps error = model_.clock.error + scaled_up(sum(gates.cycle(), busy), model_.clock.rate_ppt, 1'000'000'000'000);
-    const PhasedSupply windows(gates, q, gates.base(), overhang(gates, q) + error, demands_[q].longest() - gap_ + error);
+    const PhasedSupply windows(gates, q, gates.base(), taken_at_starts(gates, q), error, demands_[q].longest() - gap_);
     const StartFrom start = [&](Ps from, Ps before) {
       Ps time = 0;
       for (int step = 0; step < most_steps; ++step) {

@@ -28,12 +28,16 @@ std::vector<Ps> PortAnalysis::delays_in_windows(TrafficClass q) const {
   for (const GateCycle& gates : gates_) {
     if (gates.is_always_open(q)) return {};
     const std::vector<GateOpening>& all = gates.windows(q);
-    const Ps lost = overhang(gates, q) + error;
+    const std::vector<Ps> taken = taken_at_starts(gates, q);
     PackedWindows made{{}, std::max(blocking(q), gap_), gap_};   // the gap behind a higher class whose window has just closed counts too
     for (std::size_t w = 0; w < all.size(); ++w) {
       const GateOpening& window = all[w];
+      const Ps lost = taken[w] + error;
+      const Ps lost_of_next = taken[(w + 1) % all.size()] + error;
       const Ps next = w + 1 < all.size() ? all[w + 1].from : all.front().from + gates.cycle();
-      made.windows.push_back({at_least(window.until - error - window.from - lost), at_most(window.until - window.from + 2 * error), at_most(next - window.from), at_most(next + lost - window.until + error)});
+      made.windows.push_back(
+          {at_least(window.until - error - window.from - lost), at_most(window.until - window.from + 2 * error),
+           at_most(next + lost_of_next - window.from - lost), at_most(next + lost_of_next - window.until + error)});
     }
     const std::optional<std::vector<Ps>> delays = delays_of_packed(flows, made);
     if (!delays) return {};

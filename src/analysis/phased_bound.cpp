@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace takt::analysis {
 namespace {
@@ -51,9 +52,7 @@ class PhasedWaits {
   /// What of the phases is worth keeping: those of a hyperperiod that ends soon. False if nothing is to be said.
   bool prepare() {
     busy_ = slow(t_.busy);
-    for (const Role role : {Role::own, Role::before, Role::behind})
-      for (Flow& flow : flows_)
-        if (flow.role == role && flow.phase && !keeps(*flow.phase)) flow.phase.reset();
+    forget_phases();
     for (const Flow& flow : flows_) {
       if (flow.role == Role::behind) continue;
       links_[flow.link].at_once = std::max(links_[flow.link].at_once, flow.work);
@@ -69,6 +68,18 @@ class PhasedWaits {
     std::sort(jumps_.begin(), jumps_.end());
     jumps_.erase(std::unique(jumps_.begin(), jumps_.end()), jumps_.end());
     return true;
+  }
+  /// Which phases are kept does not depend on the order of the flows: of each role those of the shortest periods first,
+  /// and those of one period all or none.
+  void forget_phases() {
+    std::vector<Flow*> flows;
+    for (Flow& flow : flows_)
+      if (flow.phase) flows.push_back(&flow);
+    std::sort(flows.begin(), flows.end(), [](const Flow* a, const Flow* b) {
+      return std::tuple(a->role, a->phase->period) < std::tuple(b->role, b->phase->period);
+    });
+    for (Flow* const flow : flows)
+      if (!keeps(*flow->phase)) flow->phase.reset();
   }
   bool keeps(const ArrivalPhase& phase) {
     if (phase.width >= phase.period) return false;

@@ -4,6 +4,7 @@
 #include <array>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -21,6 +22,7 @@
 #include "scenario/run/run.hpp"
 #include "tests/explain/checked_ways.hpp"
 #include "tests/generator/schema_validation.hpp"
+#include "tests/property/twins.hpp"
 #include "tests/wire_checker/checked_run.hpp"
 #include "verify/monitor.hpp"
 #include "verify/report.hpp"
@@ -60,6 +62,8 @@ class Checks {
     check("lost", [&] { lost(); });
     if (r_.applications.empty()) {
       check("bound", [&] { bounds(); });
+      if (text.find("\"auto\"") == std::string::npos)
+        check("order", [&] { orders(text); });  // what takt chooses may rest on the order
       if (options_.verify_events > 0) check("verify", [&] { verification(); });
     }
   }
@@ -269,6 +273,45 @@ class Checks {
         const analysis::ThreadBound bound = analysis::thread_bound(r_, bounds, a, t, r_.scenario.warm_up);
         if (stands(bound.assumptions)) thread(bound, r_.applications[a].threads[t], result_->applications[a].threads[t], result_->applications[a].name);
       }
+  }
+
+  /// A scenario with another path, since several are as short, is another one.
+  void orders(const std::string& text) {
+    const std::map<std::string, Ordered> wanted = ordered_bounds(r_);
+    for (const property::Twin& twin :
+         {property::with_other_streams(text, digest_), property::with_other_nodes(text, digest_),
+          property::with_other_links(text, digest_)}) {
+      json::Diagnostics diagnostics;
+      const auto other = twin.text.empty() ? nullptr : scenario::load_text(twin.text, file_, {}, diagnostics);
+      if (other == nullptr) continue;
+      const std::map<std::string, Ordered> found = ordered_bounds(*other);
+      if (std::ranges::any_of(wanted, [&](const auto& each) {
+            return !found.contains(each.first) || found.at(each.first).paths != each.second.paths;
+          }))
+        continue;
+      for (const auto& [name, bound] : wanted)
+        expect(found.at(name).latency == bound.latency, [&] {
+          return name + ": the bound is " + words_of(bound.latency) + ", and with another order in the file " +
+                 words_of(found.at(name).latency);
+        });
+    }
+  }
+  struct Ordered {
+    std::optional<sim::Duration> latency;
+    std::vector<std::string> paths;
+  };
+  static std::map<std::string, Ordered> ordered_bounds(const scenario::Resolved& resolved) {
+    std::map<std::string, Ordered> all;
+    for (const analysis::StreamBound& bound : analysis::bound(resolved).streams) {
+      Ordered& made = all[bound.name];
+      made.latency = bound.latency;
+      for (const scenario::Path& path : resolved.streams[bound.index.value].paths)
+        for (const std::uint32_t node : path) made.paths.push_back(resolved.plan.nodes[node].name);
+    }
+    return all;
+  }
+  static std::string words_of(const std::optional<sim::Duration>& latency) {
+    return latency ? took(*latency) : "unbounded";
   }
 
   void thread(const analysis::ThreadBound& bound, const scenario::ResolvedThread& thread, const results::ThreadResult& found, const std::string& application) {

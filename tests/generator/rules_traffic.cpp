@@ -89,7 +89,7 @@ Made end_of_paths(Maker& m, const Scope& s, bool at_talker) {
 Made every(Maker& m, const Scope&) {
   if (m.wants(Feature::automatic_gates)) return m.word("1ms 2ms");
   if (m.is_slow()) return m.word("2ms 3ms 5ms");
-  return m.word(m.is_long() ? "1ms 2ms 5ms 3333us" : "125us 200us 250us 333us 500us 1ms");
+  return m.word(m.is_long() ? "1ms 2ms 5ms 3333us" : "125us 200us 250us 333us 500us 1ms 245520ns 453120ns 252960ns");
 }
 
 Made payload(Maker& m, const Scope&) {
@@ -128,7 +128,7 @@ std::span<const Rule> traffic_rules() {
       {.key = "stream.normal", .percent = 20},
       {.key = "stream.burst", .percent = 40, .make = burst},
       {.key = "stream.trace", .feature = Feature::traces, .percent = 50, .words = "bursts.csv steady.csv"},
-      {.key = "stream.offset", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return m.word(s.has("every") ? "0us 1us 10us 37us 100us auto auto" : "0us 1us 10us 37us 100us"); }},
+      {.key = "stream.offset", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return m.word(s.has("every") ? "0us 1us 10us 37us 100us 6303712ps 143201492ps auto auto" : "0us 1us 10us 37us 100us 6303712ps"); }},
       {.key = "stream.until", .percent = 8, .words = "3ms 20ms"},
       {.key = "stream.jitter", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("every") && !(m.wants(Feature::automatic_gates) && s.text("pcp") == "6") ? Made(m.word("10us 100us")) : std::nullopt; }},
       {.key = "stream.launch", .feature = Feature::launch, .percent = 50, .words = "0ns 10us 100us"},

@@ -1,5 +1,7 @@
 #include "chart/gantt.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "chart/axis.hpp"
@@ -7,8 +9,24 @@
 
 namespace takt::chart {
 
+namespace {
+
+/// Names of rows have the room that the longest one takes, up to a limit beyond which they end in dots.
+constexpr std::size_t longest_name = 64;
+constexpr double of_character = 6.2;
+
+std::string shown_name(const std::string& name) { return name.size() <= longest_name ? name : name.substr(0, longest_name - 3) + "..."; }
+
+double room_for_names(const Gantt& chart) {
+  std::size_t longest = 0;
+  for (const GanttRow& row : chart.rows) longest = std::max(longest, shown_name(row.name).size());
+  return std::max(190.0, 16 + of_character * static_cast<double>(longest));
+}
+
+}  // namespace
+
 std::string draw(const Gantt& chart) {
-  constexpr double left = 190;
+  const double left = room_for_names(chart);
   constexpr double width = 1080;
   constexpr double row_height = 20;
   constexpr double head = 34;
@@ -27,11 +45,15 @@ std::string draw(const Gantt& chart) {
   for (std::size_t r = 0; r < chart.rows.size(); ++r) {
     const GanttRow& row = chart.rows[r];
     const double y = head + row_height * static_cast<double>(r);
-    svg.text({left - 8, y + 14}, row.name, Anchor::end, Class{"label"});
+    svg.text({left - 8, y + 14}, shown_name(row.name), Anchor::end, Class{"label"});
     svg.line({left, y + row_height}, {width - 14, y + row_height}, Class{"grid"});
     for (const GanttStretch& stretch : row.stretches) svg.rectangle({x.at(stretch.from), y + 2}, x.at(stretch.to) - x.at(stretch.from), row_height - 4, Class{"stretch"});
     // What would be narrower than a pixel can be seen all the same.
     for (const GanttBar& bar : row.bars) svg.mark_rectangle({x.at(bar.from), y + 5}, std::max(x.at(bar.to) - x.at(bar.from), 1.0), row_height - 10, palette(bar.colour), bar.title);
+    for (const GanttCross& cross : row.crosses) {
+      const double at = x.at(cross.at);
+      svg.titled_path(fmt::format("M{0} {2} L{1} {3} M{0} {3} L{1} {2}", coordinate(at - 4), coordinate(at + 4), coordinate(y + 6), coordinate(y + 14)), "#c0392b", 2, cross.title);
+    }
   }
   for (std::size_t i = 0; i < chart.legend.size(); ++i) {
     const Point at{left + entry_width * static_cast<double>(i % a_line), bottom + 26 + 16 * static_cast<double>(i / a_line)};

@@ -1,4 +1,4 @@
-// What happens by time in several rows: stretches behind (a gate is open), bars before them (a frame is sent).
+// What happens by time in several rows: stretches behind (a gate is open), bars before them (a frame is sent), crosses on top (a frame is discarded).
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,17 @@ struct GanttStretch {
   double to = 0;
 };
 
+/// Something ends that should have gone on.
+struct GanttCross {
+  double at = 0;
+  std::string title;        ///< shown when the mouse rests on it
+};
+
 struct GanttRow {
   std::string name;
   std::vector<GanttStretch> stretches;
   std::vector<GanttBar> bars;
+  std::vector<GanttCross> crosses;
 };
 
 struct Gantt {

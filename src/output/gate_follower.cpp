@@ -4,8 +4,8 @@
 
 namespace takt::output {
 
-GateFollower::GateFollower(const models::Network& network, const models::PortDirectory& directory) : network_(&network), directory_(&directory), gates_(directory.ports().size()) {
-  for (std::uint32_t position = 0; position < gates_.size(); ++position) look_at(position, sim::TrueTime());
+GateFollower::GateFollower(const models::Network& network, const models::PortDirectory& directory, sim::TrueTime now) : network_(&network), directory_(&directory), gates_(directory.ports().size()) {
+  for (std::uint32_t position = 0; position < gates_.size(); ++position) look_at(position, now);
 }
 
 const models::EgressPort& GateFollower::live(std::uint32_t position) const {

@@ -10,8 +10,8 @@ namespace takt::output {
 
 class GateFollower {
  public:
-  /// Both outlive it. Of a part of a divided run only the part's own ports have gates.
-  GateFollower(const models::Network& network, const models::PortDirectory& directory);
+  /// From `now` on, the present instant. Both outlive it. Of a part of a divided run only the part's own ports have gates.
+  GateFollower(const models::Network& network, const models::PortDirectory& directory, sim::TrueTime now = {});
 
   /// Whether the port, by its position in the directory, has gates at present.
   bool has_gates(std::uint32_t position) const;

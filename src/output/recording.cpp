@@ -177,7 +177,7 @@ std::string Recording::open() {
     timeline_ = std::make_unique<TimelineRecorder>(run_->network(), (folder / "timeline.json").string(), ways_.selection.from, ways_.selection.to);
     timeline_->look_at(playback_.moment());
     wants_.gates = true;
-    add_sink(*timeline_, {Occurrence::started, Occurrence::resumed, Occurrence::cut, Occurrence::drop});
+    add_sink(*timeline_, {Occurrence::started, Occurrence::resumed, Occurrence::cut, Occurrence::drop, Occurrence::arrived, Occurrence::separated});
   }
   if (options_.waves) {
     waves_ = std::make_unique<VcdRecorder>(run_->network(), (folder / "waves.vcd").string());
@@ -186,6 +186,7 @@ std::string Recording::open() {
       waves_->add_output(run_->resolved().topology.nodes[application.node.value].name + "\n" + application.name, signal.name);
     }
     waves_->begin_at(ways_.selection.from);
+    waves_->end_at(ways_.selection.to);
     waves_->look_at(playback_.moment());
     wants_.gates = wants_.queues = true;
     program_waves_ = std::make_unique<ProgramWaves>(*run_, *waves_, ways_.selection.from);

@@ -9,9 +9,9 @@ using models::Occurrence;
 Tape::Tape(models::Network& network, std::uint32_t part, const TapeWants& wants)
     : network_(&network), part_(part), wants_(wants), directory_(network), node_of_component_(network.nodes_of_components()) {
   if (!wants.gates) return;
-  gates_ = std::make_unique<GateFollower>(network, directory_);
+  gates_ = std::make_unique<GateFollower>(network, directory_, network.simulation().now());
   for (std::uint32_t position = 0; position < directory_.ports().size(); ++position) {
-    show_gates(position, sim::TrueTime(), true);
+    show_gates(position, network.simulation().now(), true);
     const models::NodeIndex node = directory_.ports()[position].id.node;
     if (!network.has(node) || network.node_clock(node) == nullptr) continue;
     if (clocks_.empty() || clocks_.back()->node != node) {

@@ -55,7 +55,7 @@ struct Note {
   std::uint32_t delays = none;      ///< in Tape::delays
 };
 
-/// Of one network, by one thread. Hangs on its simulation (and on its part of a divided run) from before the first event.
+/// Of one network, by one thread. Hangs on its simulation (and on its part of a divided run) from before the first event, or, for gates alone, from any instant on.
 class Tape final : public sim::TraceSink, public models::CrossingWatcher {
  public:
   /// `part`: which part of a divided run the network is. The network outlives the tape.

@@ -33,7 +33,7 @@ std::string microseconds(sim::Duration duration) {
 }  // namespace
 
 TimelineRecorder::TimelineRecorder(const models::Network& network, std::string path, sim::TrueTime from, sim::TrueTime to)
-    : network_(&network), view_(network), from_(from), to_(to), directory_(network), file_(std::move(path)) {
+    : network_(&network), view_(network), from_(from), to_(to), directory_(network), drops_(network, directory_), file_(std::move(path)) {
   file_.write("{\"displayTimeUnit\":\"ns\",\"traceEvents\":[\n");
   name_ports();
   slices_.resize(directory_.ports().size());
@@ -154,11 +154,15 @@ void TimelineRecorder::record(const sim::TraceRecord& record) {
     show_gates(directory_.find(record.where), record.time, record.what);
     return;
   }
+  drops_.record(record);
+  if (kind == models::Occurrence::drop) {
+    mark_drop(record);
+    return;
+  }
   const bool begins = kind == models::Occurrence::started || kind == models::Occurrence::resumed;
-  if (!begins && kind != models::Occurrence::cut && kind != models::Occurrence::drop) return;
+  if (!begins && kind != models::Occurrence::cut) return;
   const std::uint32_t position = directory_.find(record.where);
   if (position == models::PortDirectory::none) return;
-  const models::PortDirectory::Port& port = directory_.ports()[position];
   Slice& slice = slices_[position];
   const auto octets = models::TransmissionDetail::unpack(record.detail).octets;
   if (kind == models::Occurrence::cut) {
@@ -167,14 +171,17 @@ void TimelineRecorder::record(const sim::TraceRecord& record) {
     return;
   }
   const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
-  const std::string& stream = stream_names_[frame.stream.value];
-  if (begins) {
-    write_slice(position);
-    slice = {record.time, octets, frame.sequence, frame.stream, frame.priority, true, kind == models::Occurrence::resumed, false};
-    return;
-  }
+  write_slice(position);
+  slice = {record.time, octets, frame.sequence, frame.stream, frame.priority, true, kind == models::Occurrence::resumed, false};
+}
+
+void TimelineRecorder::mark_drop(const sim::TraceRecord& record) {
+  const std::uint32_t position = drops_.of(record).port;
+  if (position == models::PortDirectory::none) return;
+  const models::PortId port = directory_.ports()[position].id;
+  const models::Frame& frame = view_.frame({static_cast<std::uint32_t>(record.what)});
   event(fmt::format(R"({{"ph":"i","s":"t","pid":{},"tid":{},"ts":{},"name":"drop","args":{{"stream":{},"sequence":{},"reason":"{}"}}}})",
-                    port.id.node.value + 1, port.id.port + 1u, microseconds(record.time.since_start()), stream, frame.sequence,
+                    port.node.value + 1, port.port + 1u, microseconds(record.time.since_start()), stream_names_[frame.stream.value], frame.sequence,
                     models::name_of(static_cast<models::DropReason>(record.detail))));
 }
 

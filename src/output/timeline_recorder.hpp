@@ -1,5 +1,6 @@
 // Writes a time line in the Chrome trace event format, which ui.perfetto.dev opens: a process for each node with a thread for each
-// port, on which every frame is a slice from the first bit of its preamble to its last bit; drops are marks; arrows lead from hop to hop, and what a frame waits for
+// port, on which every frame is a slice from the first bit of its preamble to its last bit; drops are marks on the port where the frame was, or where the node that
+// discarded it had received it; arrows lead from hop to hop, and what a frame waits for
 // stands beside the port; and a track for whatever has a state, such as the participants of a Program.
 #pragma once
 
@@ -10,6 +11,7 @@
 #include "explain/way.hpp"
 #include "models/moment.hpp"
 #include "models/port_directory.hpp"
+#include "output/drop_places.hpp"
 #include "output/streaming_file.hpp"
 #include "sim/trace.hpp"
 
@@ -62,6 +64,7 @@ class TimelineRecorder final : public sim::TraceSink {
   };
   static constexpr TrackId no_track = 0xFFFF'FFFF;
   void write_slice(std::uint32_t position);
+  void mark_drop(const sim::TraceRecord& record);
   void show_gates(std::uint32_t position, sim::TrueTime time, std::uint64_t states);
   void name_ports();
   void name_process(std::uint32_t process, std::string_view name);
@@ -73,6 +76,7 @@ class TimelineRecorder final : public sim::TraceSink {
   sim::TrueTime from_;
   sim::TrueTime to_;
   models::PortDirectory directory_;
+  DropPlaces drops_;
   StreamingFile file_;
   bool first_ = true;
   std::vector<std::string> groups_;

@@ -73,6 +73,7 @@ std::string VcdRecorder::unique_in(const std::string& scope, const std::string& 
 }
 
 void VcdRecorder::set(SignalId signal, sim::TrueTime time, std::uint64_t value) {
+  if (time > to_) return;
   advance_to(time);
   change(signal, time, value);
 }
@@ -89,6 +90,7 @@ void VcdRecorder::record(const sim::TraceRecord& record) {
     show_gates(position, record.time, record.what);
     return;
   }
+  if (record.time > to_) return;
   advance_to(record.time);
   const models::PortDirectory::Port& port = directory_.ports()[position];
   const SignalId first = position * signals_of_a_port;
@@ -122,6 +124,7 @@ void VcdRecorder::show_gates(std::uint32_t position, sim::TrueTime time, std::ui
 }
 
 std::string VcdRecorder::close(sim::TrueTime end) {
+  end = std::max(time_, std::min(end, to_));
   advance_to(end);
   if (end > time_) file_.write(fmt::format("#{}\n", end.ps()));
   if (std::string problem = file_.close(); !problem.empty()) return problem;

@@ -37,6 +37,8 @@ class VcdRecorder final : public sim::TraceSink {
 
   /// Nothing before that is written. Before anything is recorded.
   void begin_at(sim::TrueTime from) { time_ = from; }
+  /// Nor what comes after that.
+  void end_at(sim::TrueTime to) { to_ = to; }
 
   /// It is told of things later than they happen, each with its moment.
   void look_at(const models::Moment& moment) { view_.look_at(moment); }
@@ -82,6 +84,7 @@ class VcdRecorder final : public sim::TraceSink {
   std::vector<sim::TrueTime> begun_;     // by port: when the first bit of what it sends left
   std::vector<sim::TrueTime> free_at_;   // by port: when the last bit of what it sends leaves
   sim::TrueTime time_;           // of the last time stamp in the file
+  sim::TrueTime to_ = sim::TrueTime::never();
   bool declared_ = false;
   std::map<std::string, std::string> names_;   // by what they are called
   std::set<std::string> taken_;                // in their scopes

@@ -30,7 +30,7 @@ std::vector<const results::ReactionResult*> chosen(const std::vector<results::Re
 
 }  // namespace
 
-Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& result) : run_(resolved), cycle_(gate_cycle(resolved, result.simulated)), ways_(run_.network(), result), end_(std::min(run_.end(), sim::TrueTime() + result.simulated)) {
+Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& result) : run_(resolved), ways_(run_.network(), result), end_(std::min(run_.end(), sim::TrueTime() + result.simulated)) {
   for (std::size_t p = 0; p < resolved.programs.size(); ++p) {
     logs_.emplace_back();
     const scenario::ResolvedProgram& program = resolved.programs[p];
@@ -47,8 +47,8 @@ Replay::Replay(const scenario::Resolved& resolved, const results::RunResult& res
     logs_.back() = std::make_unique<MessageLog>(run_, p, std::move(spans));
     sinks_.add(*logs_.back());
   }
-  if (cycle_) {
-    watch_ = std::make_unique<GateWatch>(run_, *cycle_);
+  if (const auto longest = longest_gate_cycle(resolved); longest || has_discarded(result)) {
+    watch_ = std::make_unique<GateWatch>(run_, longest, end_);
     sinks_.add(*watch_);
   }
   if (!result.clocks.empty()) run_.set_clock_sink(&clocks_.emplace(run_, result));
@@ -62,6 +62,22 @@ bool Replay::run_until(sim::TrueTime time, const std::function<bool()>& is_inter
   return true;
 }
 
+bool Replay::watch_gates(const std::function<bool()>& is_interrupted) {
+  if (!run_until(watch_->begin(), is_interrupted)) return false;
+  watch_->start();
+  if (watch_->shows_gates()) {
+    if (!run_until(watch_->middle(), is_interrupted)) return false;
+    watch_->choose_cycle();
+  } else {
+    constexpr std::uint64_t events_a_slice = 20'000;
+    while (!watch_->until() && !run_.simulation().run(end_, events_a_slice))
+      if (is_interrupted()) return false;
+  }
+  if (const auto until = watch_->until(); until && !run_until(*until, is_interrupted)) return false;
+  watch_->finish();
+  return true;
+}
+
 /// On to the end, if need be: when the slowest frames come is in no result, nor are the offsets of clocks.
 bool Replay::go_to_end(const std::function<bool()>& is_interrupted) {
   constexpr std::uint64_t events_a_slice = 200'000;
@@ -72,15 +88,10 @@ bool Replay::go_to_end(const std::function<bool()>& is_interrupted) {
 
 bool Replay::advance(const std::function<bool()>& is_interrupted) {
   if (sinks_.empty() && !clocks_) return true;
-  way_recorder_ ? run_.explain_to(&sinks_) : run_.simulation().set_trace(&sinks_);
+  way_recorder_ || watch_ ? run_.explain_to(&sinks_) : run_.simulation().set_trace(&sinks_);
   sim::TrueTime last;
   for (const Excerpt& excerpt : excerpts_) last = std::max(last, excerpt.to + run_.resolved().programs[excerpt.program].description->cycle * 2);
-  bool goes_on = true;
-  if (cycle_) {
-    goes_on = run_until(cycle_->from, is_interrupted);
-    watch_->look_at_gates();
-    last = std::max(last, cycle_->until);
-  }
+  bool goes_on = watch_ == nullptr || watch_gates(is_interrupted);
   if (goes_on) goes_on = run_until(last, is_interrupted) && go_to_end(is_interrupted);
   run_.simulation().set_trace(nullptr);
   if (clocks_) clocks_->finish();
@@ -93,6 +104,6 @@ std::vector<chart::SequenceChart> Replay::sequences() const {
   return all;
 }
 
-std::optional<chart::Gantt> Replay::gates() const { return watch_ ? std::optional(watch_->figure()) : std::nullopt; }
+std::optional<chart::Gantt> Replay::gates() const { return watch_ ? watch_->figure() : std::nullopt; }
 
 }  // namespace takt::report

@@ -30,8 +30,9 @@ class Replay {
 
   /// Of each kind of reaction the slowest, by program.
   std::vector<chart::SequenceChart> sequences() const;
-  /// None without gates.
+  /// Gates and frames of one cycle; without gates, the frames around the first one that was discarded; none without either.
   std::optional<chart::Gantt> gates() const;
+  bool shows_gates() const { return watch_ != nullptr && watch_->shows_gates(); }
   /// Of each stream the slowest frame.
   const WorstWays& ways() const { return ways_; }
   /// None without gPTP.
@@ -39,13 +40,13 @@ class Replay {
 
  private:
   bool run_until(sim::TrueTime time, const std::function<bool()>& is_interrupted);
+  bool watch_gates(const std::function<bool()>& is_interrupted);
   bool go_to_end(const std::function<bool()>& is_interrupted);
 
   scenario::Run run_;
   std::vector<Excerpt> excerpts_;
   std::vector<std::unique_ptr<MessageLog>> logs_;   // by program; null: nothing is shown of it
-  std::unique_ptr<GateWatch> watch_;
-  std::optional<Span> cycle_;
+  std::unique_ptr<GateWatch> watch_;                // null: no port ever has gates, and no frame was discarded
   WorstWays ways_;
   std::optional<explain::WayRecorder> way_recorder_;
   std::optional<ClockCurves> clocks_;

@@ -170,7 +170,9 @@ std::string run_page(const scenario::Resolved& resolved, const RunResult& result
   page += verdict_line(results::name_of(result.verdict), sentence(result)) + head(result) + requirements(result) + violations(result);
   page += chart::section("The network") + chart::charts({draw(network_figure(resolved, &result))});
   if (const auto gates = replay.gates(); gates && !gates->rows.empty())
-    page += chart::section("Gates", "Green: the gate of the class is open. Bars: frames on the wire; rest the mouse on one.") + chart::charts({draw(*gates)});
+    page += (replay.shows_gates() ? chart::section("Gates", "Green: the gate of the class is open. Bars: frames on the wire; crosses: frames that were discarded; rest the mouse on one.")
+                                  : chart::section("Discarded frames", "Bars: frames on the wire; crosses: frames that were discarded; rest the mouse on one.")) +
+            chart::charts({draw(*gates)});
   page += reactions(result, replay) + streams(result) + ways_section(replay.ways()) + ports(result) + clocks(result, replay.clocks()) + drops(result);
   return page + chart::page_end();
 }

@@ -103,13 +103,13 @@ std::unique_ptr<Timeline> Timeline::record(const scenario::Resolved& resolved, s
   auto timeline = std::make_unique<Timeline>();
   timeline->from_ = from;
   TimelineSink sink(run, limits, *timeline);
-  run.simulation().set_trace(&sink);
+  run.explain_to(&sink);
   constexpr std::uint64_t events_a_slice = 50'000;
   for (bool is_over = false; !is_over && !sink.is_full();) {
     if (interrupted()) return nullptr;
     is_over = run.advance(events_a_slice);
   }
-  run.simulation().set_trace(nullptr);
+  run.explain_to(nullptr);
   sink.finish(run.simulation().now());
   return timeline;
 }

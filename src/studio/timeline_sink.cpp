@@ -14,7 +14,7 @@ constexpr int class_shift = 8;
 }  // namespace
 
 TimelineSink::TimelineSink(const scenario::Run& run, const Timeline::Limits& limits, Timeline& timeline)
-    : run_(&run), limits_(limits), timeline_(&timeline), directory_(run.network()), gates_(run.network(), directory_) {
+    : run_(&run), limits_(limits), timeline_(&timeline), directory_(run.network()), gates_(run.network(), directory_), drops_(run.network(), directory_) {
   const auto& nodes = run.network().plan().nodes;
   for (const models::PortDirectory::Port& port : directory_.ports())
     timeline.rows_.push_back({nodes[port.id.node.value].name, port.id.port, port.peer.is_none() ? std::string() : nodes[port.peer.value].name, {}, {}});
@@ -49,9 +49,11 @@ void TimelineSink::record(const sim::TraceRecord& record) {
   follow_gates(record.time);
   const auto kind = static_cast<models::Occurrence>(record.kind);
   const bool begins = kind == models::Occurrence::started || kind == models::Occurrence::resumed;
-  const bool is_drop = kind == models::Occurrence::drop;
+  // A copy that came twice is no loss.
+  const bool is_drop = kind == models::Occurrence::drop && record.detail != static_cast<std::uint64_t>(models::DropReason::duplicate);
+  drops_.record(record);
   if (!begins && !is_drop && kind != models::Occurrence::cut && kind != models::Occurrence::gates_changed) return;
-  const std::uint32_t position = directory_.find(record.where);
+  const std::uint32_t position = is_drop ? drops_.of(record).port : directory_.find(record.where);
   if (position == models::PortDirectory::none) return;
   if (kind == models::Occurrence::gates_changed) {
     gates_.look_at(position, record.time);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/port_directory.hpp"
+#include "output/drop_places.hpp"
 #include "output/gate_follower.hpp"
 #include "scenario/run/run.hpp"
 #include "studio/timeline.hpp"
@@ -13,7 +14,7 @@ namespace takt::studio {
 
 class TimelineSink final : public sim::TraceSink {
  public:
-  /// All outlive it.
+  /// All outlive it. Hangs on the run by scenario::Run::explain_to().
   TimelineSink(const scenario::Run& run, const Timeline::Limits& limits, Timeline& timeline);
 
   void record(const sim::TraceRecord& record) override;
@@ -32,6 +33,7 @@ class TimelineSink final : public sim::TraceSink {
   Timeline* timeline_;
   models::PortDirectory directory_;
   output::GateFollower gates_;
+  output::DropPlaces drops_;
   std::uint64_t changes_ = 0;
   sim::TrueTime last_;
   bool is_full_ = false;

@@ -80,6 +80,104 @@ TEST(RunPage, GatesAndFramesOfOneCycle) {
       EXPECT_TRUE(std::any_of(row.stretches.begin(), row.stretches.end(), [&](const auto& open) { return open.from <= bar.from && bar.to <= open.to; })) << row.name << " at " << bar.from;
 }
 
+/// A page of a scenario that is written here.
+Made page_of_text(const std::string& text) {
+  json::Diagnostics diagnostics;
+  Made made;
+  made.resolved = scenario::load_text(text, "test.json", {}, diagnostics);
+  EXPECT_TRUE(made.resolved) << diagnostics.to_text();
+  scenario::Run run(*made.resolved);
+  run.advance();
+  made.result = evaluation::evaluate(run, false);
+  made.replay = std::make_unique<Replay>(*made.resolved, made.result);
+  EXPECT_TRUE(made.replay->advance([] { return false; }));
+  made.page = run_page(*made.resolved, made.result, *made.replay);
+  return made;
+}
+
+/// Two hosts at a switch whose port to b has the gates `first`, and from `at` on `then`.
+std::string with_set_gates(const std::string& first, const std::string& at, const std::string& then, const std::string& more = {}) {
+  return R"({"name": "t", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch")" + (first.empty() ? "" : R"(, "egress": [{"to": "b", "gates": )" + first + "}]") + R"(}},
+    "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}]},
+    "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "every": "100us", "pcp": 6}],
+    "script": [{"at": ")" + at + R"(", "set_gates": {"node": "sw", "to": "b", "gates": )" + then + "}}]" + more + "}";
+}
+
+// The middle of the run is 5 ms. Lists of 400 us begin at 0; one of 1 ms that is set at 1 ms with base time 0 runs from 2 ms on, and its cycle from 5 ms to 6 ms is shown.
+TEST(RunPage, GatesThatTheScriptHasSet) {
+  const std::string short_list = R"({"entries": [{"open": [6], "for": "100us"}, {"open": [0], "for": "300us"}]})";
+  const std::string long_list = R"({"entries": [{"open": [6], "for": "250us"}, {"open": [0], "for": "750us"}]})";
+  for (const std::string& before : {short_list, std::string()}) {
+    const Made made = page_of_text(with_set_gates(before, "1ms", long_list));
+    const auto gates = made.replay->gates();
+    ASSERT_TRUE(gates) << before;
+    EXPECT_NE(gates->title.find("from 5 ms on, one cycle of 1 ms"), std::string::npos) << gates->title;
+    ASSERT_EQ(gates->rows.size(), 1u);
+    ASSERT_EQ(gates->rows[0].stretches.size(), 1u);
+    EXPECT_DOUBLE_EQ(gates->rows[0].stretches[0].from, 0);
+    EXPECT_DOUBLE_EQ(gates->rows[0].stretches[0].to, 250);
+  }
+}
+
+// Cycles of 400 us: the one that 5 ms lies in is from 4.8 to 5.2 ms. A list that is set at 5.05 ms with a base time of 5.1 ms begins in it: class 6 was open from 4.8 to 4.9 ms, and is from 5.1 ms on.
+TEST(RunPage, GatesAsTheyWereWhereTheyChangeInTheCycleThatIsShown) {
+  const std::string before = R"({"entries": [{"open": [6], "for": "100us"}, {"open": [0], "for": "300us"}]})";
+  const Made made = page_of_text(with_set_gates(before, "5.05ms", R"({"base_time": "5.1ms", "entries": [{"open": [6], "for": "150us"}, {"open": [0], "for": "250us"}]})"));
+  const auto gates = made.replay->gates();
+  ASSERT_TRUE(gates);
+  std::vector<std::pair<double, double>> open;
+  for (const chart::GanttStretch& stretch : gates->rows.at(0).stretches) open.emplace_back(stretch.from, stretch.to);
+  EXPECT_NE(gates->title.find("from 4.8 ms on"), std::string::npos) << gates->title << ": of the list that is in force at 5 ms";
+  EXPECT_EQ(open, (std::vector<std::pair<double, double>>{{0, 100}, {300, 400}}));
+  // A gate that is stuck from 5.1 ms to 5.15 ms.
+  const Made stuck = page_of_text(with_set_gates(before, "9ms", before, R"(, "faults": [{"kind": "stuck-gate", "node": "sw", "to": "b", "class": 6, "state": "open", "at": "5.1ms", "for": "50us"}])"));
+  const auto drawn = stuck.replay->gates();
+  ASSERT_TRUE(drawn);
+  EXPECT_NE(drawn->title.find("from 4.8 ms on, one cycle of 400 us"), std::string::npos) << drawn->title;
+  open.clear();
+  for (const chart::GanttStretch& stretch : drawn->rows.at(0).stretches) open.emplace_back(stretch.from, stretch.to);
+  EXPECT_EQ(open, (std::vector<std::pair<double, double>>{{0, 100}, {300, 350}}));
+}
+
+// A stream gate that is shut for half of the cycle, a filter that takes no SDU above 900 octets, and a queue, of class 1 as priority 0 has it, that takes none above 500.
+TEST(RunPage, WhatIsDiscardedIsACross) {
+  const Made made = page_of_text(R"({"name": "t", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host", "egress": [{"gates": {"entries": [{"open": [0, 1, 2, 3, 4, 5, 6, 7], "for": "1ms"}]}}]}, "b": {"kind": "host"},
+    "sw": {"kind": "switch", "forwarding_delay": "1us", "egress": [{"to": "b", "gates": {"entries": [{"open": [0, 1, 2, 3, 4, 5, 6, 7], "for": "1ms"}]}, "max_sdu": [{"class": 1, "size": "500B"}]}],
+      "ingress": {"filters": [{"stream": "gated", "gate": "g"}, {"stream": "long", "max_sdu": "900B"}], "gates": [{"name": "g", "entries": [{"open": true, "for": "500us"}, {"open": false, "for": "500us"}]}]}}},
+    "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}]},
+    "streams": [{"name": "gated", "from": "a", "to": "b", "payload": "100B", "every": "250us", "offset": "10us", "pcp": 6},
+                {"name": "long", "from": "a", "to": "b", "payload": "1000B", "every": "1ms", "offset": "100us", "pcp": 5},
+                {"name": "longer-than-the-queue", "from": "a", "to": "b", "payload": "600B", "every": "1ms", "offset": "200us"}]})");
+  const auto gates = made.replay->gates();
+  ASSERT_TRUE(gates);
+  std::vector<std::string> crosses;
+  for (const chart::GanttRow& row : gates->rows)
+    for (const chart::GanttCross& cross : row.crosses) crosses.push_back(row.name + ": " + cross.title);
+  // From 5 ms on: frames 20 to 23 of the gated stream, two of which come to a closed gate; frame 5 of the others.
+  EXPECT_EQ(crosses, (std::vector<std::string>{"a:0 to sw, class 5: long #5 discarded at sw: stream_max_sdu", "a:0 to sw, class 6: gated #22 discarded at sw: stream_gate",
+                                               "a:0 to sw, class 6: gated #23 discarded at sw: stream_gate", "sw:1 to b, class 1: longer-than-the-queue #5 discarded at sw: queue_max_sdu"}));
+  EXPECT_EQ(count(made.page, "discarded at sw: "), crosses.size());
+}
+
+// Without gates the frames around the first one that was discarded: a camera that sends every 150 us, twice what its meter lets pass (scenarios/tsn/policing.json).
+TEST(RunPage, WithoutGatesTheFramesAroundTheFirstThatWasDiscarded) {
+  const Made made = page_of("tsn/policing.json");
+  const auto frames = made.replay->gates();
+  ASSERT_TRUE(frames);
+  EXPECT_NE(made.page.find("<h2>Discarded frames</h2>"), std::string::npos);
+  ASSERT_EQ(frames->rows.size(), 1u);
+  const chart::GanttRow& camera = frames->rows[0];
+  EXPECT_EQ(camera.name, "camera:0 to switch, class 6");
+  EXPECT_GE(camera.bars.size(), 12u);
+  EXPECT_GE(camera.crosses.size(), 3u);
+  EXPECT_LT(camera.crosses.size(), camera.bars.size());
+  EXPECT_NE(camera.crosses[0].title.find("discarded at switch: flow_meter"), std::string::npos) << camera.crosses[0].title;
+  // Each cross is behind the bar of its frame: 1400 octets and headers, a cable and the forwarding delay.
+  for (const chart::GanttCross& cross : camera.crosses)
+    EXPECT_TRUE(std::ranges::any_of(camera.bars, [&](const chart::GanttBar& bar) { return bar.to <= cross.at && cross.at - bar.to < 10; })) << cross.at;
+  EXPECT_FALSE(page_of("robot-arm.json", {"/duration=100ms"}).replay->gates()) << "neither gates nor frames that are discarded";
+}
+
 TEST(RunPage, ACrashMarksItsNodeAndTheReplayIsTheSameRun) {
   const Made made = page_of("daisy-chain.json");
   EXPECT_NE(made.page.find("red: failed in this run"), std::string::npos);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "explain/explanation.hpp"
+#include "explain/shown_hops.hpp"
 #include "json/page_text.hpp"
 #include "json/quantity.hpp"
 
@@ -41,23 +42,25 @@ struct Widths {
 };
 
 void add_frame(std::string& page, const ExplainedFrame& frame, std::string_view indent) {
+  const std::vector<ShownHop> shown = shown_hops(frame);
   Widths widths;
-  for (const ExplainedHop& hop : frame.hops)
-    for (const ExplainedPart& part : hop.parts) widths.hold(place_of(hop, part), blame_of(part));
+  for (const ShownHop& each : shown)
+    for (const ExplainedPart& part : each.hop.parts) widths.hold(each.place_of(part), blame_of(part));
   page += fmt::format("{}{} frame {} from {}: {}, {} after it was produced at {}\n", indent, frame.stream, frame.sequence, frame.talker, end_of(frame), json::to_page_text(frame.takes), json::to_page_text(frame.produced.since_start()));
   std::string last = "-";
-  for (const ExplainedHop& hop : frame.hops) {
-    if (hop.stored) {
-      last = name_of(hop);
-      page += fmt::format("{}  {:<{}} stored, not cut through: {}\n", indent, last, widths.where, *hop.stored);
+  for (const ShownHop& each : shown) {
+    if (each.hop.stored) {
+      last = name_of(each.hop);
+      page += fmt::format("{}  {:<{}} stored, not cut through: {}\n", indent, last, widths.where, *each.hop.stored);
     }
-    for (const ExplainedPart& part : hop.parts) {
-      std::string where = place_of(hop, part);
+    for (const ExplainedPart& part : each.hop.parts) {
+      std::string where = each.place_of(part);
       const bool is_same = where == last;
       last = where;
       page += fmt::format("{}  {:<{}} {:<{}} {:>14} {:>7}\n", indent, is_same ? "" : where, widths.where, blame_of(part), widths.what, json::to_page_text(part.takes), share_of(part.takes, frame.takes));
     }
   }
+  if (shown.size() < frame.hops.size()) page += fmt::format("{}  {} hops; in a row without much of a wait they are summed, --format json has each\n", indent, frame.hops.size());
 }
 
 void add_reaction(std::string& page, const ExplainedReaction& reaction) {

@@ -8,6 +8,7 @@
 #include "chart/page.hpp"
 #include "chart/stacked_bars.hpp"
 #include "chart/svg.hpp"
+#include "explain/shown_hops.hpp"
 #include "output/text_report.hpp"
 #include "report/worst_ways.hpp"
 
@@ -18,9 +19,10 @@ using explain::Cause;
 using explain::ExplainedFrame;
 using explain::ExplainedHop;
 using explain::ExplainedPart;
+using explain::ShownHop;
 using output::readable;
 
-constexpr std::size_t most_parts = 60;
+constexpr std::size_t most_parts = 200;
 
 /// More causes than eyes tell apart: those of one kind have one colour.
 struct Kind {
@@ -74,7 +76,10 @@ std::string share_of(sim::Duration part, sim::Duration whole) {
   return whole > sim::Duration() ? fmt::format("{:.1f} %", 100 * static_cast<double>(part.ps()) / static_cast<double>(whole.ps())) : "";
 }
 
-std::string name_of(const ExplainedHop& hop) { return hop.port ? fmt::format("{}:{}", hop.node, *hop.port) : hop.node; }
+std::string name_of(const ShownHop& shown) {
+  if (shown.count > 1) return fmt::format("{} hops from {}:{} on", shown.count, shown.hop.node, shown.hop.port.value_or(0));
+  return shown.hop.port ? fmt::format("{}:{}", shown.hop.node, *shown.hop.port) : shown.hop.node;
+}
 
 std::string behind(const ExplainedPart& part) {
   if (part.stream) return part.sequence ? fmt::format("{} frame {}", *part.stream, *part.sequence) : *part.stream;
@@ -96,8 +101,9 @@ std::string title_of(const std::string& where, std::span<const ExplainedPart> pa
 }
 
 /// A group for each port, and one for each host that takes its time. Neighbours of one kind are one piece, however many frames it took.
-void add_groups(const ExplainedHop& hop, sim::Duration whole, std::vector<chart::StackedGroup>& groups) {
-  groups.push_back({name_of(hop), {}});
+void add_groups(const ShownHop& shown, sim::Duration whole, std::vector<chart::StackedGroup>& groups) {
+  const ExplainedHop& hop = shown.hop;
+  groups.push_back({name_of(shown), {}});
   for (std::size_t i = 0; i < hop.parts.size();) {
     const std::size_t kind = kind_of(hop.parts[i]);
     const std::size_t first = i;
@@ -126,10 +132,11 @@ std::string label_of(const ExplainedFrame& frame) {
 std::string table_of(const ExplainedFrame& frame) {
   chart::Table table({"hop", "cause", "behind", "took", "share"}, most_parts);
   std::string last;
-  for (const ExplainedHop& hop : frame.hops) {
-    if (hop.stored) table.row({{name_of(hop)}, {"stored, not cut through"}, {*hop.stored}, {{}, true}, {{}, true}});
-    for (const ExplainedPart& part : hop.parts) {
-      const std::string where = explain::place_of(hop, part);
+  for (const ShownHop& each : explain::shown_hops(frame)) {
+    if (each.hop.stored)
+      table.row({{name_of(each)}, {"stored, not cut through"}, {*each.hop.stored}, {{}, true}, {{}, true}});
+    for (const ExplainedPart& part : each.hop.parts) {
+      const std::string where = each.place_of(part);
       table.row({{where == last ? std::string() : where}, {part.words}, {behind(part)}, {readable(part.takes), true}, {share_of(part.takes, frame.takes), true}});
       last = where;
     }
@@ -146,12 +153,13 @@ std::string ways_section(const WorstWays& ways) {
   std::string bars;
   for (const ExplainedFrame* const frame : frames) {
     chart::StackedBar bar{label_of(*frame), {}};
-    for (const ExplainedHop& hop : frame->hops) {
-      add_groups(hop, frame->takes, bar.groups);
-      for (const ExplainedPart& part : hop.parts) occurs[kind_of(part)] |= part.takes > sim::Duration();
+    for (const ShownHop& shown : explain::shown_hops(*frame)) {
+      add_groups(shown, frame->takes, bar.groups);
+      for (const ExplainedPart& part : shown.hop.parts) occurs[kind_of(part)] |= part.takes > sim::Duration();
     }
-    bars += fmt::format("<h3>{}: {}</h3><p class=\"note way\">frame {} from {}, produced at {}, delivered at {}</p>\n", chart::escaped(frame->stream), readable(frame->takes), frame->sequence,
-                        chart::escaped(frame->talker), readable(frame->produced.since_start()), chart::escaped(frame->node));
+    bars += fmt::format("<h3>{}: {}</h3><p class=\"note way\">frame {} from {}, produced at {}, delivered at {}{}</p>\n", chart::escaped(frame->stream), readable(frame->takes), frame->sequence,
+                        chart::escaped(frame->talker), readable(frame->produced.since_start()), chart::escaped(frame->node),
+                        frame->hops.size() > explain::most_hops ? fmt::format(" over {} hops; in a row without much of a wait they are summed", frame->hops.size()) : "");
     bars += chart::stacked_bar_element(bar) + "<details><summary>Its figures, hop by hop</summary>" + table_of(*frame) + "</details>\n";
   }
   std::vector<chart::StackedKey> legend;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "chart/svg.hpp"
 
 namespace takt::chart {
@@ -31,16 +33,25 @@ constexpr std::string_view dark =
     "@media screen and (prefers-color-scheme:dark){:root{--ink:#ddd;--paper:#15191c;--faint:#9aa5ad;--line:#3a4248;--head:#20262a}"
     ".pass{color:#4cc38a}.fail{color:#ff7b6b}.undecided{color:#e3b341}svg text{fill:#ccc}svg .axis{stroke:#8a949b}svg .grid{stroke:#2c3439}svg .limit{stroke:#ff7b6b}"
     "svg text.pass{fill:#4cc38a}svg text.fail{fill:#ff7b6b}svg text.undecided{fill:#e3b341}svg .box{fill:#20303c;stroke:#58a6d6}svg .paper{fill:#15191c}svg .arrow{stroke:#ccc}svg .arrowhead{fill:#ccc}svg .note{fill:#aab4bb;stroke:#15191c}svg [stroke=\"#000000\"]{stroke:#ddd}svg [fill=\"#000000\"]{fill:#ddd}"
-    ".k0{--k:#93a3ae}.k1{--k:#4a565e}.k2{--k:#c3c36b}.k3{--k:#3b94d0}.k4{--k:#ff8a3d}.k6{--k:#2dbb91}.k8{--k:#b583cf}}"
-    "@media print{body{max-width:none;margin:0}h2{break-after:avoid}svg,tr{break-inside:avoid}details{display:block}}\n";
+    ".k0{--k:#93a3ae}.k1{--k:#4a565e}.k2{--k:#c3c36b}.k3{--k:#3b94d0}.k4{--k:#ff8a3d}.k6{--k:#2dbb91}.k8{--k:#b583cf}}\n";
+
+/// On paper nothing scrolls and nothing is folded: tables and charts are as wide as the page, wide charts stand across on pages of their own, and heads of tables are repeated.
+constexpr std::string_view paper =
+    "@page{size:A4;margin:12mm}@page across{size:A4 landscape;margin:12mm}"
+    "@media print{body{max-width:none;margin:0;padding:0;font-size:9.5pt}h2,h3,summary,.note{break-after:avoid}svg,tr,.stack,.verdict{break-inside:avoid}"
+    ".table,.wide{overflow:visible}table{width:100%;font-size:8pt}td,th{padding:2px 5px;overflow-wrap:anywhere}thead{display:table-header-group}"
+    ".charts{display:block}.charts>svg,.wide>svg{display:block;width:auto;height:auto;max-width:100%;max-height:255mm;margin:0 0 8px}.wide:not(.tall){page:across}.wide:not(.tall)>svg{max-height:180mm}"
+    "details .charts>svg{display:inline-block;max-width:49%}"
+    ".stack .name{white-space:normal;overflow-wrap:anywhere;font-size:7pt}details{display:block}details::details-content{content-visibility:visible;display:block}"
+    ".verdict,th,svg .stretch{print-color-adjust:exact;-webkit-print-color-adjust:exact}}\n";
 
 }  // namespace
 
 std::string page_head(std::string_view title) {
   const std::string safe = escaped(title);
   return fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
-                     "<link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}{}{}</style></head><body>\n<h1>{}</h1>\n",
-                     safe, style, style_sheet(), dark, safe);
+                     "<link rel=\"icon\" href=\"data:,\"><title>{}</title><style>{}{}{}{}</style></head><body>\n<h1>{}</h1>\n",
+                     safe, style, style_sheet(), dark, paper, safe);
 }
 
 std::string page_end() { return "</body></html>\n"; }
@@ -58,7 +69,12 @@ std::string charts(const std::vector<std::string>& elements) {
   return text + "</div>\n";
 }
 
-std::string wide_chart(const std::string& element) { return "<div class=\"wide\">" + element + "</div>\n"; }
+std::string wide_chart(const std::string& element) {
+  double width = 0, height = 0;
+  const std::size_t size = element.find("viewBox=");
+  const bool is_tall = size != std::string::npos && std::sscanf(element.c_str() + size, "viewBox=\"0 0 %lf %lf\"", &width, &height) == 2 && height > width;
+  return std::string("<div class=\"wide") + (is_tall ? " tall" : "") + "\">" + element + "</div>\n";
+}
 
 void Table::row(const std::vector<Cell>& cells) {
   if (++rows_ > most_rows_) return;
@@ -75,13 +91,13 @@ std::string Table::take() {
   if (rows_ == 0) return {};
   std::string text = "<div class=\"table\"><table>";
   if (!heads_.empty()) {
-    text += "<tr>";
+    text += "<thead><tr>";
     for (const std::string& head : heads_) text += "<th>" + escaped(head) + "</th>";
-    text += "</tr>\n";
+    text += "</tr></thead>\n";
   }
-  text += std::move(body_);
+  text += "<tbody>" + std::move(body_);
   if (rows_ > most_rows_) text += fmt::format("<tr><td class=\"note\" colspan=\"{}\">and {} more</td></tr>\n", heads_.size(), rows_ - most_rows_);
-  return text + "</table></div>\n";
+  return text + "</tbody></table></div>\n";
 }
 
 }  // namespace takt::chart

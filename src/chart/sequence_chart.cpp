@@ -9,9 +9,10 @@ namespace takt::chart {
 
 std::string sequence_chart_element(const SequenceChart& chart) {
   constexpr double margin = 210;
-  const double gap = chart.participants.size() <= 4 ? 320 : 190;   // many stand closer
+  // Many participants and many rows stand closer.
+  const double gap = chart.participants.size() <= 4 ? 320 : chart.participants.size() <= 8 ? 190 : 125;
+  const double half_box = std::min(65.0, gap / 2 - 5);
   constexpr double first_row = 130;
-  constexpr double row_height = 34;
   std::vector<std::int64_t> rows;
   for (const SequenceStep& step : chart.steps) rows.push_back(step.time);
   for (const SequenceMessage& message : chart.messages) {
@@ -20,6 +21,8 @@ std::string sequence_chart_element(const SequenceChart& chart) {
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  constexpr std::size_t many_rows = 24;
+  const double row_height = rows.size() <= many_rows ? 34 : 24;
   const auto y_of = [&](std::int64_t time) {
     return first_row + row_height * static_cast<double>(std::lower_bound(rows.begin(), rows.end(), time) - rows.begin());
   };
@@ -30,7 +33,7 @@ std::string sequence_chart_element(const SequenceChart& chart) {
   svg.text({20, 26}, chart.title, Anchor::start, Class{"title"});
   for (std::size_t p = 0; p < chart.participants.size(); ++p) {
     svg.line({x_of(p), 80}, {x_of(p), end}, Class{"axis"});
-    svg.rectangle({x_of(p) - 65, 45}, 130, 36, Class{"box"}, 4);
+    svg.rectangle({x_of(p) - half_box, 45}, 2 * half_box, 36, Class{"box"}, 4);
     svg.text({x_of(p), 60}, chart.participants[p], Anchor::middle, Class{"strong"});
     svg.text({x_of(p), 75}, chart.states[p], Anchor::middle, Class{"label"});
   }

@@ -59,6 +59,7 @@ ExitStatus run(const CompareOptions& options) {
   how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
   study::Comparison comparison =
       study::compare(study::plain_plan(*a, options.pairs, options.first_seed), study::plain_plan(*b, options.pairs, options.first_seed), how);
+  progress.clear();
   if (!comparison.problem.empty()) {
     std::fprintf(stderr, "takt: %s\n", comparison.problem.c_str());
     return ExitStatus::internal_error;

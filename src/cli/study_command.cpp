@@ -88,7 +88,7 @@ std::unique_ptr<study::Store> store_for(const study::Plan& plan, const StudyOpti
   return nullptr;
 }
 
-ExitStatus run_points(const study::Plan& plan, const StudyOptions& options, study::RunOptions& how) {
+ExitStatus run_points(const study::Plan& plan, const StudyOptions& options, study::RunOptions& how, StudyProgress& progress) {
   ExitStatus status = ExitStatus::pass;
   std::vector<bool> finished(plan.points(), false);
   std::unique_ptr<study::Store> store;
@@ -96,13 +96,16 @@ ExitStatus run_points(const study::Plan& plan, const StudyOptions& options, stud
   if (options.resume && !(store = store_for(plan, options, status))) return status;
   if (store)
     if (const std::string problem = store->finished(finished); !problem.empty()) return bad(options.out + ": " + problem);
-  if (const std::string mistakes = study::validate(plan, how, finished); !mistakes.empty()) {
+  const std::string mistakes = study::validate(plan, how, finished);
+  progress.clear();
+  if (!mistakes.empty()) {
     std::fputs(mistakes.c_str(), stderr);
     return ExitStatus::bad_input;
   }
   if (how.interrupted()) return ExitStatus::interrupted;
   if (!store && !(store = store_for(plan, options, status))) return status;
   const study::RunSummary summary = study::run_study(plan, *store, how, finished);
+  progress.clear();
   if (!summary.problem.empty()) {
     std::fprintf(stderr, "takt: %s: %s\n", options.out.c_str(), summary.problem.c_str());
     return ExitStatus::internal_error;
@@ -117,7 +120,7 @@ ExitStatus run_points(const study::Plan& plan, const StudyOptions& options, stud
   return summary.interrupted ? ExitStatus::interrupted : ExitStatus::pass;
 }
 
-ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::RunOptions& how) {
+ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::RunOptions& how, StudyProgress& progress) {
   std::string problem;
   const auto question = study::read_question(plan, options.find, options.at, problem);
   if (!question) return bad("--find: " + problem);
@@ -126,6 +129,7 @@ ExitStatus answer(study::Plan& plan, const StudyOptions& options, const study::R
   tell(diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::bad_input;
   const study::Finding finding = study::find(plan, *question, how);
+  progress.clear();
   if (!finding.problem.empty()) {
     std::fprintf(stderr, "takt: %s\n", finding.problem.c_str());
     return ExitStatus::internal_error;
@@ -152,9 +156,10 @@ ExitStatus run(const StudyOptions& options) {
   how.shard = *shard;
   how.interrupted = [&] { return interrupt.requested(); };
   how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
-  if (!options.find.empty()) return answer(*plan, options, how);
-  if (!options.dry_run) return run_points(*plan, options, how);
+  if (!options.find.empty()) return answer(*plan, options, how, progress);
+  if (!options.dry_run) return run_points(*plan, options, how, progress);
   const std::string mistakes = study::validate(*plan, how, std::vector<bool>(plan->points(), false));
+  progress.clear();
   std::fputs(mistakes.c_str(), stderr);
   if (!mistakes.empty()) return ExitStatus::bad_input;
   if (!options.quiet) print_plan(*plan, how);
@@ -234,6 +239,7 @@ ExitStatus shrink(const ShrinkOptions& options) {
   how.interrupted = [&] { return interrupt.requested(); };
   how.progress = [&](const char* what, std::uint64_t done, std::uint64_t of) { progress.update(what, done, of); };
   const study::Shrunk shrunk = study::shrink(*plan, options.point, how);
+  progress.clear();
   if (shrunk.interrupted) return ExitStatus::interrupted;
   if (!shrunk.problem.empty()) return bad(shrunk.problem);
   if (const std::string problem = output::write_file(options.out, json::encode(shrunk.scenario)); !problem.empty()) {

@@ -22,7 +22,7 @@ void StudyProgress::update(const char* what, std::uint64_t done, std::uint64_t o
   const double share = static_cast<double>(done) / static_cast<double>(of);
   const double seconds = line_.seconds() - began_;
   const std::string left = done > 0 ? in_words(seconds / share - seconds) + " left" : "";
-  line_.show(fmt::format("{} [{}] {} of {} points  {:.1f} a second  {}", what, StatusLine::bar(share), done, of, seconds > 0 ? static_cast<double>(done) / seconds : 0.0, left));
+  line_.show(what, share, fmt::format("{} of {} points  {:.1f} a second  {}", done, of, seconds > 0 ? static_cast<double>(done) / seconds : 0.0, left));
 }
 
 }  // namespace takt::cli

@@ -13,6 +13,8 @@ class StudyProgress {
   explicit StudyProgress(bool is_wanted) : line_(is_wanted) {}
   /// `what` is done with the points; another `what` begins anew.
   void update(const char* what, std::uint64_t done, std::uint64_t of);
+  /// Takes the line away. To be called before anything else is printed.
+  void clear() { line_.clear(); }
 
  private:
   StatusLine line_;

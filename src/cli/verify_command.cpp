@@ -93,6 +93,7 @@ ExitStatus run(VerifyOptions& options) {
   what.helps = true;
   what.proof.interrupted = what.search.interrupted;
   const verify::Verification verification = verify::verify(*resolved, what);
+  line.clear();
   std::vector<std::string> files(verification.lines.size());
   std::optional<output::WrittenFiles> folder;
   if (!options.out.empty()) {

@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "json/document.hpp"
+#include "cli/status_line.hpp"
 #include "study/pool.hpp"
+#include "tests/generator/against.hpp"
 #include "tests/generator/check_scenario.hpp"
 #include "tests/generator/coverage.hpp"
 #include "tests/generator/generated.hpp"
@@ -31,6 +33,9 @@ constexpr const char* usage =
     "Makes random scenarios of every feature, runs and verifies each, and shrinks what is wrong to a small scenario.\n"
     "\n"
     "  takt_soak [--hours H] [--count N] [--first N] [--jobs N] [--folder DIR] [--build NAME]\n"
+    "  takt_soak --against PROGRAM [--recordings] [--hours H] [--count N] [--first N] [--jobs N] [--folder DIR]\n"
+    "                                    runs each (2,000) by this build and by another one, whose takt or takt_digest PROGRAM is, and\n"
+    "                                    compares digests, or with --recordings frames.csv and hops.csv, sorted by time and node\n"
     "  takt_soak --show N                the scenario of this number\n"
     "  takt_soak --check FILE...         these scenarios instead\n"
     "  takt_soak --shrink CHECK FILE     the least of a scenario that still fails this check, on standard output\n"
@@ -50,6 +55,8 @@ struct Options {
   std::string build = "unknown";
   std::optional<std::uint64_t> show;
   std::string shrink;
+  std::string against;
+  bool recordings = false;
   std::vector<std::string> files;
 };
 
@@ -208,7 +215,8 @@ class Soak {
     if (!problem.empty()) std::fprintf(stderr, "takt_soak: %s\n", problem.c_str());
     keep();
     for (const auto& [number, finding] : todo_) shrink_finding(number, finding);
-    std::printf("\n%llu scenarios, %.1f %% of them repaired, %llu findings in %s\n", static_cast<unsigned long long>(state_.done), share(), static_cast<unsigned long long>(state_.found), options_.folder.c_str());
+    line_.clear();
+    std::printf("%llu scenarios, %.1f %% of them repaired, %llu findings in %s\n", static_cast<unsigned long long>(state_.done), share(), static_cast<unsigned long long>(state_.found), options_.folder.c_str());
     for (const auto& [name, count] : state_.by_check) std::printf("  %s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));
     if (interrupted != 0) return 130;
     return state_.found > 0 ? 1 : 0;
@@ -231,8 +239,7 @@ class Soak {
   void shrink_finding(std::uint64_t number, const Finding& finding) {
     if (interrupted != 0) return;
     const std::string name = fmt::format("{}/{}-{}", options_.folder, finding.check, number);
-    std::printf("\rshrinking %s        ", name.c_str());
-    std::fflush(stdout);
+    line_.show("shrinking " + name);
     const auto [least, message] = shrunk(generate(number).text, file_name(), finding.check);
     write(name + ".json", least);
     write(name + ".txt", (message.empty() ? finding.message : message) + "\n");
@@ -242,9 +249,7 @@ class Soak {
     if (seconds() < last_told_ + (options_.jobs > 0 ? 1 : 0)) return;
     last_told_ = seconds();
     keep();
-    std::printf("\r%llu scenarios, %.1f a second, %.1f %% repaired, %llu findings ", static_cast<unsigned long long>(state_.done),
-                static_cast<double>(state_.done - at_begin_) / seconds(), share(), static_cast<unsigned long long>(state_.found));
-    std::fflush(stdout);
+    line_.show(fmt::format("{} scenarios, {:.1f} a second, {:.1f} % repaired, {} findings", state_.done, static_cast<double>(state_.done - at_begin_) / seconds(), share(), state_.found));
   }
   void keep() {
     // Those under way are begun again.
@@ -260,6 +265,7 @@ class Soak {
   std::uint64_t at_begin_ = state_.done;
   std::chrono::steady_clock::time_point begin_;
   double last_told_ = 0;
+  cli::StatusLine line_{true};
 };
 
 int check_files(const std::vector<std::string>& files) {
@@ -290,6 +296,10 @@ int show(std::uint64_t number) {
   return 0;
 }
 
+void catch_signals() {
+  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { interrupted = 1; });
+}
+
 int run(const std::vector<std::string>& arguments) {
   Options options;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -303,6 +313,10 @@ int run(const std::vector<std::string>& arguments) {
       continue;
     }
     if (key == "--check") continue;
+    if (key == "--recordings") {
+      options.recordings = true;
+      continue;
+    }
     if (i + 1 == arguments.size()) throw std::invalid_argument(key + " without a value");
     const std::string& value = arguments[++i];
     if (key == "--hours") options.hours = std::stod(value);
@@ -311,6 +325,7 @@ int run(const std::vector<std::string>& arguments) {
     else if (key == "--jobs") options.jobs = std::max(1U, static_cast<unsigned>(std::stoul(value)));
     else if (key == "--folder") options.folder = value;
     else if (key == "--build") options.build = value;
+    else if (key == "--against") options.against = value;
     else if (key == "--shrink") options.shrink = value;
     else if (key == "--show") options.show = std::stoull(value);
     else throw std::invalid_argument("unknown option " + key);
@@ -318,6 +333,12 @@ int run(const std::vector<std::string>& arguments) {
   if (options.show) return show(*options.show);
   if (!options.shrink.empty()) return shrink_file(options.shrink, options.files.at(0));
   if (!options.files.empty()) return check_files(options.files);
+  if (!options.against.empty()) {
+    AgainstOptions how{.program = options.against, .recordings = options.recordings, .hours = options.hours, .first = options.first.value_or(0), .jobs = options.jobs, .folder = options.folder};
+    if (options.count != Options().count) how.count = options.count;
+    catch_signals();
+    return soak_against(how, interrupted);
+  }
   fs::create_directories(options.folder);
   State state = state_of(options.folder + "/state.json");
   if (state.build != options.build || options.first) {
@@ -326,7 +347,7 @@ int run(const std::vector<std::string>& arguments) {
     state.build = options.build;
     state.next = options.first.value_or(next);
   }
-  for (const int number : {SIGINT, SIGTERM}) std::signal(number, [](int) { interrupted = 1; });
+  catch_signals();
   return Soak(options, state).run();
 }
 

@@ -95,6 +95,7 @@ Made every(Maker& m, const Scope&) {
 Made payload(Maker& m, const Scope&) {
   if (m.kept.contains("small_buckets")) return m.word("18B 60B 100B");
   if (m.kept.contains("mtu") && m.draw.one_in(3)) return m.word("1473B 4000B 8972B");
+  if (m.wants(Feature::cut_through) && m.draw.one_in(2)) return m.word("200B 900B");   // headers of one instant
   return m.word(m.is_slow() ? "18B 60B 100B 400B" : "18B 60B 100B 200B 500B 900B 1200B 1400B");
 }
 
@@ -128,7 +129,11 @@ std::span<const Rule> traffic_rules() {
       {.key = "stream.normal", .percent = 20},
       {.key = "stream.burst", .percent = 40, .make = burst},
       {.key = "stream.trace", .feature = Feature::traces, .percent = 50, .words = "bursts.csv steady.csv"},
-      {.key = "stream.offset", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made { return m.word(s.has("every") ? "0us 1us 10us 37us 100us 6303712ps 143201492ps auto auto" : "0us 1us 10us 37us 100us 6303712ps"); }},
+      {.key = "stream.offset", .percent = 50, .make = [](Maker& m, const Scope& s) -> Made {
+         if (m.wants(Feature::cut_through) && m.draw.one_in(2)) return text("0us");
+         return m.word(s.has("every") ? "0us 1us 10us 37us 100us 6303712ps 143201492ps auto auto"
+                                     : "0us 1us 10us 37us 100us 6303712ps");
+       }},
       {.key = "stream.until", .percent = 8, .words = "3ms 20ms"},
       {.key = "stream.jitter", .percent = 20, .make = [](Maker& m, const Scope& s) -> Made { return s.has("every") && !(m.wants(Feature::automatic_gates) && s.text("pcp") == "6") ? Made(m.word("10us 100us")) : std::nullopt; }},
       {.key = "stream.launch", .feature = Feature::launch, .percent = 50, .words = "0ns 10us 100us"},

@@ -168,6 +168,8 @@ Maker::Maker(std::uint64_t seed, std::set<Feature> wishes) : draw(seed), wishes_
       if (wishes_.contains(entry.feature))
         for (const Feature needed : entry.needs) grows |= wishes_.insert(needed).second;
   }
+  // What waits behind a gate or for credit while a header comes.
+  if (wants(Feature::cut_through) && !wants(Feature::automatic_gates) && draw.one_in(2)) wishes_.insert(draw.one_in(3) ? Feature::shapers : Feature::gates);
   is_slow_ = wants(Feature::rates) && draw.one_in(2);
   is_long_ = wants(Feature::gptp);
   duration_us = is_long_ ? 1000 * draw.between(60, 120) : wants(Feature::dds) || wants(Feature::opc_ua) || wants(Feature::programs) ? 1000 * draw.between(8, 24) : 1000 * draw.between(2, 6);

@@ -207,13 +207,15 @@ TEST(ScenarioSchedule, MarginIsMeasuredAndBounded) {
   // Looks each 100 us: at most 50 us to the nearest, in which two oscillators of 50 ppm drift 5 ns apart; in 1 ms and some us on the way some 100 ns.
   EXPECT_NEAR(static_cast<double>(margin.between_looks.ps()), 5'000, 50);
   EXPECT_NEAR(static_cast<double>(margin.on_the_way.ps()), 100'000, 1'000);
-  EXPECT_GE(margin.error, margin.measured + margin.between_looks);
-  EXPECT_GE(margin.margin, margin.error * 2 + margin.on_the_way);
+  EXPECT_GE(margin.difference, margin.measured + margin.between_looks);
+  EXPECT_GE(margin.margin, margin.difference + margin.on_the_way);
   EXPECT_EQ(margin.margin.ps() % 1'000, 0);
   EXPECT_EQ(answer->resolved->gates->problem.margin, margin.margin);
   // The schedule keeps the error as a requirement: bounds rest on it.
   ASSERT_EQ(answer->resolved->scenario.require.size(), 1u);
-  EXPECT_EQ(answer->resolved->scenario.require[0].sync, margin.error);
+  ASSERT_TRUE(answer->resolved->scenario.require[0].clocks);   // what bounds rest on is the difference between the nodes on ways
+  EXPECT_EQ(answer->resolved->scenario.require[0].clocks->names, margin.nodes);
+  EXPECT_EQ(answer->resolved->scenario.require[0].within->time, margin.difference);
   EXPECT_EQ(answer->resolved->scenario.require[0].after, margin.from);
   ASSERT_EQ(answer->streams.size(), 1u);
   EXPECT_TRUE(answer->streams[0].bound);
@@ -246,7 +248,7 @@ TEST(ScenarioSchedule, MarginKeepsToWhatIsRequiredOfClocks) {
   const auto answer = scheduled(with_clocks(gptp, R"(, "require": [{"sync": "2us", "after": "8s"}])"), false);
   ASSERT_TRUE(answer);
   ASSERT_TRUE(answer->clock_margin);
-  EXPECT_EQ(answer->clock_margin->error, sim::Duration::from_ps(2'000'000));
+  EXPECT_EQ(answer->clock_margin->difference, sim::Duration::from_ps(4'000'000));   // 2 us of each from their grandmaster
   EXPECT_EQ(answer->resolved->scenario.require.size(), 1u);
 }
 

@@ -18,6 +18,7 @@ using sim::Duration;
 
 constexpr std::size_t seeds_at_a_place = 16;
 constexpr std::uint64_t most_seeds = 64;
+constexpr std::uint64_t most_anywhere = 16;
 constexpr std::uint64_t seeds_of_a_chain = 5;
 constexpr std::uint64_t most_combinations = 4096;
 /// Where not even so many runs are affordable, the first ones count most.
@@ -102,7 +103,7 @@ class Searcher {
 
   Ended try_anywhere() {
     std::vector<Choice> choices;
-    for (std::uint64_t number = 0; number < most_seeds; ++number) choices.push_back(anywhere());
+    for (std::uint64_t number = 0; number < most_anywhere; ++number) choices.push_back(anywhere());
     return trials_.try_all(choices).size() == choices.size() ? Ended::no_worse : Ended::budget;
   }
 

@@ -15,7 +15,7 @@
 
 namespace takt::verify {
 
-inline constexpr std::uint64_t default_events = 24'000'000;   // less than five seconds on any shipped scenario
+inline constexpr std::uint64_t default_events = 12'000'000;   // a few seconds at most on any shipped scenario
 
 struct SearchOptions {
   unsigned seeds = 4;                       ///< runs of the scenario as it is, with this seed and those after it; two where chance has no say

@@ -34,10 +34,10 @@ class Budget {
 
 /// Of building a run, in events.
 inline std::uint64_t cost_of_building(const scenario::Resolved& resolved) { return 300 * static_cast<std::uint64_t>(resolved.plan.nodes.size()); }
-/// Of a run with so many events. Those of gPTP, each with its servos and clocks, take several times as long as those of frames.
+/// Of a run with so many events. Those of gPTP, with its clocks and servos, and of threads on processors take several times as long as those of frames.
 inline std::uint64_t cost_of_run(const scenario::Resolved& resolved, std::uint64_t events) {
-  constexpr std::uint64_t events_of_gptp = 4;
-  return cost_of_building(resolved) + events * (resolved.plan.gptp_stations.empty() ? 1 : events_of_gptp);
+  const bool has_threads = std::ranges::any_of(resolved.plan.nodes, [](const models::NodePlan& node) { return node.cpu != nullptr; });
+  return cost_of_building(resolved) + events * (!resolved.plan.gptp_stations.empty() ? 4 : has_threads ? 2 : 1);
 }
 /// Of an analysis like this one, in events; a port is looked at for each of its flows.
 inline std::uint64_t cost_of_bounds(const scenario::Resolved& resolved, const analysis::Bounds& bounds) {

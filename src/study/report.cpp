@@ -89,7 +89,7 @@ class Page {
     row("limits", limits.empty() ? "those of the scenario" : limits);
     row("CPU time", with_unit(content_.cpu_seconds, "s"));
     row("configuration", content_.header.digest + ", " + results::name_of(content_.header.maker));
-    add("</table>\n<table><tr><th>factor</th><th>levels</th></tr>\n");
+    add("</table>\n<table><thead><tr><th>factor</th><th>levels</th></tr></thead>\n");
     for (const ContentFactor& factor : content_.factors) {
       std::string levels;
       for (std::size_t i = 0; i < std::min<std::size_t>(factor.texts.size(), 12); ++i) levels += (i == 0 ? "" : ", ") + factor.texts[i];
@@ -248,7 +248,7 @@ class Page {
       std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(best), order.end(), is_better);
       const auto worst_first = [&](std::uint32_t a, std::uint32_t b) { return is_better(b, a); };
       std::partial_sort(order.begin() + static_cast<std::ptrdiff_t>(best), order.begin() + static_cast<std::ptrdiff_t>(shown), order.end(), worst_first);
-      add("<table><tr><th>" + escaped(label_of(measure)) + "</th><th></th><th>variant</th></tr>\n");
+      add("<table><thead><tr><th>" + escaped(label_of(measure)) + "</th><th></th><th>variant</th></tr></thead>\n");
       for (std::size_t i = 0; i < shown; ++i) {
         const Summary& summary = summaries[order[i]];
         add(fmt::format("<tr><td class=\"n\">{} ({} to {})</td><td>{}</td><td>{}</td></tr>\n", short_number(summary.mean), short_number(summary.min), short_number(summary.max), i < best ? first : last,
@@ -279,7 +279,7 @@ class Page {
       const ContentFactor& factor = content_.factors[f];
       if (!factor.is_numeric() || factor.texts.size() < 2 || factor.texts.size() > most_levels_shown) continue;
       const std::vector<Break> breaks = breaks_along(content_, f);
-      add("<table><tr><th>" + escaped(factor.name) + " passes up to</th><th>and breaks at</th><th>where</th></tr>\n");
+      add("<table><thead><tr><th>" + escaped(factor.name) + " passes up to</th><th>and breaks at</th><th>where</th></tr></thead>\n");
       for (std::size_t i = 0; i < std::min(breaks.size(), most_rows); ++i) {
         const Break& one = breaks[i];
         add("<tr><td>" + escaped(one.last_good ? factor.texts[*one.last_good] : "-") + "</td><td class=\"fail\">" +
@@ -295,7 +295,7 @@ class Page {
     const std::vector<std::size_t> rows = failing_rows(content_);
     if (rows.empty() || frontier_of(content_)) return;   // a draw that has no schedule is an answer, too
     section("Points that do not pass", "By their numbers: takt study shrink FILE POINT finds the least of its faults with which a point still fails, and writes it as a scenario.");
-    add("<table><tr><th>point</th><th>variant</th><th>replication</th><th>what it breaks</th></tr>\n");
+    add("<table><thead><tr><th>point</th><th>variant</th><th>replication</th><th>what it breaks</th></tr></thead>\n");
     for (std::size_t i = 0; i < std::min(rows.size(), most_rows); ++i)
       add(fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td class=\"n\">{}</td><td class=\"fail\">{}</td></tr>\n", content_.point_of(rows[i]), escaped(content_.name_of(content_.variant[rows[i]])),
                       content_.replication[rows[i]], escaped(broken_by(content_, rows[i]))));
@@ -306,7 +306,7 @@ class Page {
   void troubles() {
     if (content_.troubles.empty()) return;
     section("Points without a result");
-    add("<table><tr><th>point</th><th></th><th>why</th></tr>\n");
+    add("<table><thead><tr><th>point</th><th></th><th>why</th></tr></thead>\n");
     for (std::size_t i = 0; i < std::min(content_.troubles.size(), most_rows); ++i) {
       const Trouble& trouble = content_.troubles[i];
       add(fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td><pre>{}</pre></td></tr>\n", trouble.point, name_of(trouble.status), escaped(trouble.error.substr(0, 600))));

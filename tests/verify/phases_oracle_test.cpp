@@ -4,18 +4,18 @@
 // All times are multiples of a grain: four or twelve octets, since a frame occupies its link for 8 octets of preamble,
 // itself and a gap of 12, and the next port has it after the first two. So the longest latency is
 // found at phases that are multiples of the grain, or just beside them, in one of the orders in which streams may come
-// that would meet there. TAKT_NETWORKS=1000 tries as many networks.
+// that would meet there. TAKT_PHASED_NETWORKS=1000 tries as many networks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <numeric>
 #include <queue>
 #include <string>
 #include <vector>
 
 #include "sim/random.hpp"
+#include "tests/support/case_count.hpp"
 #include "tests/verify/support.hpp"
 
 namespace takt::verify::phases_oracle_test {
@@ -197,8 +197,7 @@ std::vector<std::int64_t> exhaustive_worst(const OracleNetwork& network) {
 }
 
 TEST(PhasesOracle, TheWorstFoundIsTheWorstOfAllPhases) {
-  const char* const asked = std::getenv("TAKT_NETWORKS");
-  const std::size_t wanted = asked == nullptr ? 40 : std::strtoul(asked, nullptr, 10);
+  const std::size_t wanted = support::case_count("TAKT_PHASED_NETWORKS", 60);
   std::size_t streams = 0, equal = 0, exhaustive = 0;
   std::uint64_t number = 0;
   for (std::size_t networks = 0; networks < wanted; ++number) {

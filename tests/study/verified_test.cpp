@@ -113,6 +113,7 @@ TEST(Verified, WhatSomeRunDoesNotHave) {
     "factors": [{"name": "seed_of_nothing", "set": ["/description"], "values": ["a"]}],
     "measures": [{"name": "worst_start", "of": "worst.reaction.start.max", "unit": "ms"}, {"name": "worst_halt", "of": "worst.reaction.halt.max", "unit": "ms"}]})");
   ASSERT_TRUE(plan);
+  plan->study.verify.budget = 0.1;
   const Outcome outcome = run_point(*plan, 0);
   ASSERT_EQ(outcome.status, Status::done) << outcome.error;
   EXPECT_TRUE(outcome.values[0]);
@@ -185,6 +186,7 @@ TEST(Find, AnswersByTheBound) {
   json::Diagnostics diagnostics;
   const auto plan = load_plan(std::string(TAKT_SOURCE_DIR) + "/tests/findings/study-of-a-cycle.json", diagnostics);
   ASSERT_TRUE(plan) << diagnostics.to_text();
+  plan->study.verify.budget = 1;
   std::string problem;
   const auto question = read_question(*plan, "max cycle such that halt <= 1ms", {}, problem);
   ASSERT_TRUE(question) << problem;
@@ -222,6 +224,7 @@ TEST(Find, SaysWhatOnlyRunsShow) {
       folder,
       two_talkers(rates +
                   R"(, "replications": 3, "measures": [{"name": "delay", "of": "latency.x.max", "unit": "us"}])"));
+  plan->study.verify.budget = 0.1;
   std::string problem;
   const auto question = read_question(*plan, "min rate such that delay <= 200us && lost == 0", {}, problem);
   ASSERT_TRUE(question) << problem;

@@ -104,7 +104,7 @@ TEST(NetworkChart, FailedLinksAreCrossedOutAndLoadsHaveColours) {
 
 TEST(Gantt, ABarStandsWhereItsTimesSay) {
   // The plot is 1080 - 190 - 14 = 876 pixels wide: 250 to 500 of 1000 us are 409 to 628.
-  const std::string drawn = draw(Gantt{"g", "us", 0, 1000, {{"row", {{0, 500}}, {{250, 500, 0, "frame"}}}}, {"stream"}});
+  const std::string drawn = draw(Gantt{"g", "us", 0, 1000, {{"row", {{0, 500}}, {{250, 500, 0, "frame"}}, {}}}, {"stream"}});
   EXPECT_NE(drawn.find("<rect x=\"409\" y=\"39\" width=\"219\" height=\"10\" fill=\"#0072b2\" class=\"mark\"><title>frame</title>"), std::string::npos) << drawn;
   EXPECT_NE(drawn.find("<rect x=\"190\" y=\"36\" width=\"438\" height=\"16\" rx=\"0\" class=\"stretch\"/>"), std::string::npos) << drawn;
 }

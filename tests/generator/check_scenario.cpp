@@ -20,6 +20,7 @@
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/divided_run.hpp"
 #include "scenario/run/run.hpp"
+#include "study/phases.hpp"
 #include "tests/explain/checked_ways.hpp"
 #include "tests/generator/schema_validation.hpp"
 #include "tests/property/twins.hpp"
@@ -64,6 +65,7 @@ class Checks {
       check("bound", [&] { bounds(); });
       if (text.find("\"auto\"") == std::string::npos)
         check("order", [&] { orders(text); });  // what takt chooses may rest on the order
+      check("phases", [&] { phases(); });
       if (options_.verify_events > 0) check("verify", [&] { verification(); });
     }
   }
@@ -254,12 +256,29 @@ class Checks {
     expect(json::parse(analysis::json_report(r_, bounds), "bounds.json", diagnostics).has_value(), [&] { return "the report of bounds: " + diagnostics.to_text(); });
     scenario::Run run(r_);
     run.advance();
+    keeps(run, *result_, std::move(bounds));
+  }
+
+  /// The run of a study, with phases that the seed draws where nobody gives them: the bounds of the scenario are for
+  /// it, too.
+  void phases() {
+    json::Diagnostics diagnostics;
+    const auto drawn = scenario::resolve(study::with_drawn_phases(r_.scenario), diagnostics);
+    if (!drawn) return wrong("refused with drawn phases: " + diagnostics.to_text());
+    scenario::Run run(*drawn);
+    run.advance();
+    keeps(run, evaluation::evaluate(run, false), analysis::bound(r_));
+  }
+
+  /// No figure of the run exceeds its bound.
+  void keeps(const scenario::Run& run, const results::RunResult& result, analysis::Bounds bounds) {
     // What the run itself breaks is no premise of a bound.
-    for (const verify::Violation& violation : verify::violations_in(run, *result_)) bounds.ledger.violate(violation.assumption, violation.witness);
+    for (const verify::Violation& violation : verify::violations_in(run, result))
+      bounds.ledger.violate(violation.assumption, violation.witness);
     const auto stands = [&](const analysis::Assumptions& assumptions) { return bounds.ledger.objection(assumptions, r_.scenario.warm_up).empty(); };
     for (std::size_t s = 0; s < bounds.streams.size(); ++s) {
       const analysis::StreamBound& bound = bounds.streams[s];
-      const results::StreamResult& stream = result_->streams[s];
+      const results::StreamResult& stream = result.streams[s];
       expect(bound.latency || !bound.reason.empty(), [&] { return bound.name + " has neither a bound nor a reason"; });
       if (!stands(bound.assumptions) || !stream.latency) continue;
       expect(stream.latency->min >= bound.least, [&] { return bound.name + " took " + took(stream.latency->min) + ", the least is " + took(bound.least); });
@@ -267,11 +286,13 @@ class Checks {
       if (bound.reaches_all && bound.latency) expect(stream.lost == 0, [&] { return bound.name + " loses nothing, but " + std::to_string(stream.lost) + " frames"; });
     }
     for (const analysis::ReactionBound& bound : bounds.reactions)
-      if (bound.cause == handshake::Cause::command && bound.bound && stands(bound.assumptions)) reactions(bound);
+      if (bound.cause == handshake::Cause::command && bound.bound && stands(bound.assumptions))
+        reactions(bound, result);
     for (std::size_t a = 0; a < r_.applications.size(); ++a)
       for (std::size_t t = 0; t < r_.applications[a].threads.size(); ++t) {
         const analysis::ThreadBound bound = analysis::thread_bound(r_, bounds, a, t, r_.scenario.warm_up);
-        if (stands(bound.assumptions)) thread(bound, r_.applications[a].threads[t], result_->applications[a].threads[t], result_->applications[a].name);
+        if (stands(bound.assumptions))
+          thread(bound, r_.applications[a].threads[t], result.applications[a].threads[t], result.applications[a].name);
       }
   }
 
@@ -326,14 +347,14 @@ class Checks {
   }
 
   /// Those to a call that nothing else came across.
-  void reactions(const analysis::ReactionBound& bound) {
-    const results::ProgramResult& program = result_->programs[bound.program];
+  void reactions(const analysis::ReactionBound& bound, const results::RunResult& result) {
+    const results::ProgramResult& program = result.programs[bound.program];
     const std::vector<results::ReactionResult>& all = bound.of_tree ? program.tree_reactions : program.reactions;
     const auto kind = scenario::spelling(bound.kind);
     for (const results::ReactionResult& reaction : all) {
       if (reaction.kind != kind || reaction.superseded || !reaction.completed || reaction.cause != "command") continue;
       bool is_alone = true;
-      for (const results::ProgramResult& other : result_->programs) {
+      for (const results::ProgramResult& other : result.programs) {
         for (const auto* const list : {&other.reactions, &other.tree_reactions})
           for (const results::ReactionResult& each : *list)
             if (&each != &reaction && each.began <= *reaction.completed && (!each.completed || *each.completed >= reaction.began || each.superseded) &&

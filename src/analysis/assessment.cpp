@@ -9,7 +9,7 @@
 #include "results/run_result.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/resolve/gptp_links.hpp"
-#include "scenario/run/clock_groups.hpp"
+#include "scenario/resolve/clock_groups.hpp"
 
 namespace takt::analysis {
 namespace {

@@ -20,14 +20,12 @@ constexpr int most_rounds = 5000;
 class FixedPoint {
  public:
   FixedPoint(const scenario::Resolved& resolved, const FlowGraph& graph, const std::function<bool()>& interrupted)
-      : r_(resolved), graph_(graph), interrupted_(interrupted), arrivals_(graph.hops.size()), traffic_(graph.ports.size()), is_due_(graph.ports.size(), true), is_known_(graph.hops.size(), false) {
+      : r_(resolved), graph_(graph), interrupted_(interrupted), arrivals_(graph.hops.size()), traffic_(graph.ports.size()), line_of_(graph.hops.size()), header_after_(graph.ports.size()), is_due_(graph.ports.size(), true), is_known_(graph.hops.size(), false) {
     result_.hops.resize(graph.hops.size());
-    line_of_.resize(graph.hops.size());
     result_.ports.resize(graph.ports.size());
     for (const Hop& hop : graph.hops)
       if (hop.ats) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
     for (std::uint32_t p = 0; p < graph.ports.size(); ++p) lay_out_traffic(p);
-    header_after_.resize(graph.ports.size());
     for (std::uint32_t p = 0; p < graph.ports.size(); ++p) header_after_[p] = header_of_all(p);
   }
 
@@ -94,8 +92,7 @@ class FixedPoint {
     const Hop& before = graph_.hops[hop.parents.front()];
     const std::optional<std::uint32_t> train = train_of(hop.parents.front());
     if (!train || before.lowest_class != before.highest_class || graph_.models[before.port].config->shaping.is_timed(before.highest_class)) return std::nullopt;
-    const auto known = trains_.try_emplace({*train, before.port, before.highest_class}, static_cast<std::uint32_t>(graph_.flows.size() + graph_.hops.size() + trains_.size()));
-    return known.first->second;
+    return trains_.try_emplace({*train, before.port, before.highest_class}, static_cast<std::uint32_t>(graph_.flows.size() + graph_.hops.size() + trains_.size())).first->second;
   }
 
   /// To begin with, frames that are planned come when the last of them would if nobody waited, which is what gates are laid for. Where gates keep frames for others that would come
@@ -121,8 +118,7 @@ class FixedPoint {
     const models::PortConfig& config = *model.config;
     const models::NodePlan& node = r_.plan.nodes[port.node.value];
     if (port.hops.empty() || !model.counts_packets || config.preemption || config.untagged || !is_plain(config.shaping) || !model.more_gates.empty() || model.cqf || node.ingress) return std::nullopt;
-    if (!gptp_messages(r_, port.node).empty()) return std::nullopt;
-    if (r_.plan.links[port.link].may_fail) return std::nullopt;   // a header that comes while the link is down is a frame that is stored
+    if (!gptp_messages(r_, port.node).empty() || r_.plan.links[port.link].may_fail) return std::nullopt;   // a header that comes while the link is down is a frame that is stored
     for (std::size_t other = 0; other < graph_.ports.size(); ++other)   // eligibility times ask for the last bit
       if (graph_.ports[other].node == port.node && graph_.models[other].config->shaping.timed() != 0) return std::nullopt;
     const Ps header = port.octet_time * (node.cut_through_header + models::vlan_tag).count;
@@ -459,8 +455,7 @@ class FixedPoint {
   /// What the filter of the flow has in its way: a gate that may be closed, tokens that may lack, a scheduler that may hold it for too long.
   bool policing_drops(std::uint32_t h) const {
     const Hop& hop = graph_.hops[h];
-    if (hop.parents.empty()) return false;
-    if (hop.parents.size() > 1) return hop.policing.is_there;
+    if (hop.parents.size() != 1) return !hop.parents.empty() && hop.policing.is_there;
     if (hop.policing.always_may_drop) return true;
     const std::uint32_t parent = hop.parents.front();
     const ClockQuality& clock = graph_.models[hop.port].clock;

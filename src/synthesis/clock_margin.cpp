@@ -14,7 +14,7 @@
 #include "scenario/gates/timing.hpp"
 #include "scenario/resolve/gates.hpp"
 #include "scenario/resolve/resolve.hpp"
-#include "scenario/run/clock_groups.hpp"
+#include "scenario/resolve/clock_groups.hpp"
 #include "scenario/run/run.hpp"
 
 namespace takt::synthesis {

@@ -13,7 +13,7 @@
 #include "scenario/figures/known_figures.hpp"
 #include "scenario/figures/requirement.hpp"
 #include "scenario/resolve/known_names.hpp"
-#include "scenario/run/clock_groups.hpp"
+#include "scenario/resolve/clock_groups.hpp"
 
 namespace takt::scenario {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "models/network.hpp"
 #include "scenario/figures/accounts.hpp"
-#include "scenario/run/clock_groups.hpp"
+#include "scenario/resolve/clock_groups.hpp"
 #include "sim/simulation.hpp"
 
 namespace takt::scenario {

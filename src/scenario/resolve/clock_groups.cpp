@@ -1,4 +1,4 @@
-#include "scenario/run/clock_groups.hpp"
+#include "scenario/resolve/clock_groups.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -198,6 +198,8 @@ std::string without_ties_and_chance(const std::string& text, std::uint64_t seed)
         stream["every"] = "700us";
       }
     stream.erase("jitter");
+    if (stream.contains("every") && chance.below(3) == 0)  // a common multiple that is far away
+      stream["every"] = std::to_string(3'040 * (80 + chance.below(400))) + "ns";
     stream["offset"] = std::to_string(1'000'000 + chance.below(900'000'000)) + "ps";
   }
   for (auto& [name, node] : made["network"]["nodes"].items()) {

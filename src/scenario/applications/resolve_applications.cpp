@@ -61,6 +61,7 @@ class ApplicationResolver {
     for (std::uint32_t t = 0; t < r_.topics.size(); ++t) connect(t);
     resolve_dds(r_, builder_, diagnostics_);
     for (ResolvedApplication& application : r_.applications) set_windows(application);
+    check_links();
   }
 
  private:
@@ -355,6 +356,14 @@ class ApplicationResolver {
       if (thread.topic != unknown_topic && !topics.insert({thread.topic, thread.publishes}).second)
         diagnostics_.error(thread.where.at(role), "a topic twice in one application", {"another thread has the same \"" + std::string(role) + "\"", "one thread for each topic and direction"});
     }
+  }
+
+  /// What others hear has no path then, which is reported where it is said. What nobody hears is said here.
+  void check_links() {
+    for (const ResolvedApplication& application : r_.applications)
+      if (r_.topology.neighbours[application.node.value].empty())
+        diagnostics_.error_unless(diagnostics_.has_errors(), application.where.at("on"), "an application on a host without a link",
+                                  {json::quote(r_.topology.nodes[application.node.value].name), "a host with a link"});
   }
 
   /// Frames do not leave a host to come back.

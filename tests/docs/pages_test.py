@@ -119,7 +119,7 @@ class Pages(unittest.TestCase):
                 folder = pathlib.Path(name)
                 (folder / "scenarios").symlink_to(SOURCE / "scenarios")
                 for file, content in FILES.get(page.name, {}).items():
-                    (folder / file).write_text((SOURCE / content).read_text(encoding="utf-8") if content.startswith("scenarios/") else content, encoding="utf-8")
+                    (folder / file).write_text((SOURCE / content).read_text(encoding="utf-8") if content.startswith(("scenarios/", "tests/")) else content, encoding="utf-8")
                 for file, content in outputs.files_of(outputs.blocks_of(page)).items():
                     (folder / file).write_text(content, encoding="utf-8")
                 done = set()

@@ -36,9 +36,9 @@ TEST(GeneratedScenarios, NothingIsWrong) {
     for (const std::string& check : checked.done) ++done[check];
   }
   // A check that applies to nothing would find nothing.
-  for (const char* check : {"run", "load", "digest", "wire", "frames", "bound", "phases", "order", "verify"})
+  for (const char* check : {"run", "load", "digest", "wire", "frames", "bound", "phases", "verify"})
     EXPECT_GT(done[check], static_cast<int>(count / 4)) << check;
-  EXPECT_GT(done["threads"], static_cast<int>(count / 8));
+  for (const char* check : {"threads", "order"}) EXPECT_GT(done[check], static_cast<int>(count / 8)) << check;
 }
 
 TEST(GeneratedScenarios, NorWithWhatWasFound) {

@@ -103,6 +103,7 @@ TEST(Recording, IsTheSameWithGatesByClocksThatAreSynchronised) {
 }
 
 // Two clocks without gPTP between them would show their oscillators alone: each is its own grandmaster for 10 ms, 10 ppm are 100 ns, and the offset from itself is none.
+// A clock shows whole picoseconds, rounded down: b is 1 ps further behind.
 TEST(Recording, OffsetsOfClocksAreFromTheGrandmasterAndFromTrueTime) {
   const auto resolved = sound(R"({"name": "two", "duration": "25ms", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
     "clocks": {"nodes": {"a": {"offset": "10ppm"}, "b": {"offset": "-10ppm", "initial": "1ns"}}, "gptp": {}}})");
@@ -110,8 +111,8 @@ TEST(Recording, OffsetsOfClocksAreFromTheGrandmasterAndFromTrueTime) {
   options.clocks = true;
   EXPECT_EQ(recorded_whole(*resolved, options).at("clocks.csv"),
             "time_s,node,grandmaster,offset_ns,true_offset_ns\n"
-            "0.010000000000,a,a,0.000,100.000\n0.010000000000,b,b,0.000,-99.000\n"
-            "0.020000000000,a,a,0.000,200.000\n0.020000000000,b,b,0.000,-199.000\n");
+            "0.010000000000,a,a,0.000,100.000\n0.010000000000,b,b,0.000,-99.001\n"
+            "0.020000000000,a,a,0.000,200.000\n0.020000000000,b,b,0.000,-199.001\n");
 }
 
 TEST(Recording, IsTheSameOfWhatIsSelected) {

@@ -163,7 +163,7 @@ const BadCase programs_cases[] = {
     {"UnknownMethod", with_script(R"({"at": "1us", "program": "p", "call": "start"})"),
      R"(2:39: error at /script/0/call: unknown name for a Program control method: found "start", expected "Start", "Suspend", "Resume", "Halt" or "Reset" (did you mean "Start"?))"},
     {"RequirementOfNothing", with_requirement(R"({"within": "1ms"})"),
-     R"(2:1: error at /require/0: a field is missing: expected exactly one of "reaction", "stream", "sync", "application", "signal" or "figure")"},
+     R"(2:1: error at /require/0: a field is missing: expected exactly one of "reaction", "stream", "sync", "clocks", "application", "signal" or "figure")"},
     {"ReactionWithoutLimit", with_requirement(R"({"reaction": "start"})"),
      R"(2:1: error at /require/0: missing key: found "reaction" without a limit, expected "within")"},
     {"ReactionOfAnUnknownProgram", with_requirement(R"({"reaction": "start", "program": "P", "within": "1ms"})"),
@@ -171,7 +171,7 @@ const BadCase programs_cases[] = {
     {"ReactionWithoutAProgram", scenario_with(R"("require": [{"reaction": "start", "within": "1ms"}])"),
      R"(2:26: error at /require/0/reaction: a reaction without a program: found no programs, expected "programs")"},
     {"ReactionAndStream", with_requirement(R"({"reaction": "start", "within": "1ms", "stream": "p/state/a", "latency": "1ms"})"),
-     R"(2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction", "stream", "sync", "application", "signal" or "figure"
+     R"(2:50: error at /require/0/stream: fields that exclude each other: found "stream" beside "reaction", expected exactly one of "reaction", "stream", "sync", "clocks", "application", "signal" or "figure"
 2:74: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},
     {"LimitOfTheOtherSubject", with_requirement(R"({"reaction": "start", "within": "1ms", "latency": "1ms"})"),
      R"(2:51: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},

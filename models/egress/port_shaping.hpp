@@ -44,8 +44,8 @@ class PortShaping {
   Refusal refusal(sim::TrueTime now, TrafficClass q, const Head& head);
   /// The same of rest_ready_time().
   Refusal gate_refusal(sim::TrueTime now, TrafficClass q);
-  /// No credit has a say in this class: when its gate lets a frame pass the frame may start.
-  bool is_gated_only(TrafficClass q) const { return credits_[q] == nullptr; }
+  /// Neither credit nor eligibility times have a say in this class: when its gate lets a frame pass the frame may start.
+  bool is_gated_only(TrafficClass q) const { return credits_[q] == nullptr && !is_timed(q); }
 
   // What the credit of a class should know.
   /// A frame of the class waits, or stands at the port to be selected.

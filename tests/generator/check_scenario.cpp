@@ -299,9 +299,9 @@ class Checks {
   /// A scenario with another path, since several are as short, is another one.
   void orders(const std::string& text) {
     const std::map<std::string, Ordered> wanted = ordered_bounds(r_);
-    for (const property::Twin& twin :
-         {property::with_other_streams(text, digest_), property::with_other_nodes(text, digest_),
-          property::with_other_links(text, digest_)}) {
+    // Nodes and links in another order are another network here: ports get other numbers, and frames of one instant are
+    // served by port. The metamorphic test holds those where that does not matter.
+    for (const property::Twin& twin : {property::with_other_streams(text, digest_)}) {
       json::Diagnostics diagnostics;
       const auto other = twin.text.empty() ? nullptr : scenario::load_text(twin.text, file_, {}, diagnostics);
       if (other == nullptr) continue;

@@ -10,7 +10,7 @@
 //   clocks     what passes of clocks is so at every look, whomever they follow; nothing passes that two grandmasters show; no gate keeps gPTP waiting for ever
 //   bound      no run exceeds a bound
 //   phases     nor does the run of a study, whose phases the seed draws where nobody gives them
-//   order      bounds are the same with streams, nodes and links in another order in the file
+//   order      bounds are the same with streams in another order in the file
 //   verify     contradicts neither itself nor a run, and its worst runs can be replayed
 #pragma once
 

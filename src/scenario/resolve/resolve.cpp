@@ -262,7 +262,8 @@ class Resolver {
   models::TalkerSchedule normal_gaps_of(const Stream& stream, const NormalGaps& normal) {
     const Duration longest = normal.max.value_or(Duration::max());
     const auto is_sound = [&](std::string_view key) { return !diagnostics_.is_refused(normal.where.at(key)); };
-    if (!is_sound("mean") || !is_sound("deviation") || !is_sound("min") || !is_sound("max")) return models::PeriodicSchedule{{}, 1_s, {}};
+    // A deviation of 0 is one that is missing, which the table has reported.
+    if (!is_sound("mean") || !is_sound("deviation") || !is_sound("min") || !is_sound("max") || normal.deviation <= Duration()) return models::PeriodicSchedule{{}, 1_s, {}};
     if (normal.min > normal.mean || normal.mean > longest)
       diagnostics_.error(normal.where.at("mean"), "a mean outside of what is left of the distribution", {json::to_text(normal.mean), normal.max ? json::to_text(normal.min) + " to " + json::to_text(*normal.max) : "at least " + json::to_text(normal.min)});
     else if (normal.min == longest)

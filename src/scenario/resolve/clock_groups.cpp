@@ -63,7 +63,7 @@ std::vector<ClockGroup> clock_groups(const Resolved& resolved) {
   for (std::size_t i = 0; i < joined.size(); ++i) groups.push_back({clocks_on_ways + (joined.size() > 1 ? " " + std::to_string(i + 1) : std::string()), joined[i]});
   for (const RequiredFigure& required : resolved.requirements) {
     if (required.kind != results::RequirementKind::clocks || std::ranges::find(groups, required.subject, &ClockGroup::name) != groups.end()) continue;
-    ClockGroup& group = groups.emplace_back(required.subject, std::vector<std::uint32_t>());
+    ClockGroup& group = groups.emplace_back(ClockGroup{required.subject, {}});
     for (const std::string& name : resolved.scenario.require[required.entry].clocks->names)
       if (const auto node = resolved.topology.find(name)) group.nodes.push_back(*node);
     std::ranges::sort(group.nodes);

@@ -4,7 +4,6 @@
 #
 # Headers come to PREFIX/include/takt and are included as here: "pubsub/data_set.hpp", "node/real_node.hpp".
 include(CMakePackageConfigHelpers)
-include(GNUInstallDirs)
 install(FILES tools/wireshark/takt.lua DESTINATION ${CMAKE_INSTALL_DATADIR}/takt)
 
 set(takt_installed takt_base takt_security takt_message_security takt_program takt_handshake takt_uadp takt_pubsub takt_dds takt_gateway takt_wire takt_json takt_plant takt_node)

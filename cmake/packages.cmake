@@ -3,7 +3,6 @@
 #   tools/packages        builds them into build/packages
 #
 # Man pages, completions and the systemd unit go with the command. What lintian says of the packages is argued in cmake/debian/.
-include(GNUInstallDirs)
 
 set(manuals ${PROJECT_BINARY_DIR}/manuals)
 find_program(TAKT_MANUALS_PYTHON python3)

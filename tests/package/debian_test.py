@@ -38,6 +38,9 @@ def look_inside(packages, folder):
     for package in packages:
         run("dpkg-deb", "-x", package, root)
     assert "takt " in run(root / "usr/bin/takt", "--version")
+    # A companion is found where the package puts it, also in a root of its own.
+    assert (root / "usr/libexec/takt/takt-node").exists()
+    assert "takt node" in run(root / "usr/bin/takt", "node", "--help")
     for name in ("takt", "takt-run", "takt-study-merge", "takt-node"):
         page = root / f"usr/share/man/man1/{name}.1.gz"
         assert page.exists(), page
@@ -106,6 +109,7 @@ def install_bare(packages, folder):
     assert there == run(TAKT, "run", SOURCE / "scenarios" / "robot-arm.json", "--quiet"), there
     if len(packages) > 1:
         assert run("chroot", root, "python3", "-c", "import takt; print(takt.load('/usr/share/takt/scenarios/robot-arm.json').run().digest)").strip() in there
+    assert "usage" in run("chroot", root, "takt", "node", "--help").lower()
     run("chroot", root, "apt-get", "purge", "-y", "takt")
     print("installed, run and removed in a bare Debian 12")
 

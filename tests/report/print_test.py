@@ -70,7 +70,7 @@ class Printed(unittest.TestCase):
     def test_heads_are_repeated(self):
         paper, _ = self.paper(SCENARIOS / "daisy-chain.json")
         continued = [page for page in paper.layout if re.match(r"\s*(hop\s+cause|m\d+|plc|cable|forwarding|transmission|operating)", page)]
-        self.assertGreater(len(continued), 3)
+        self.assertGreaterEqual(len(continued), 2, "the long table takes several pages")
         for page in continued:
             self.assertRegex(page, r"^\s*hop\s+cause\s+behind\s+took\s+share", page[:300])
 

@@ -92,6 +92,7 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
         continue;
       }
       const TrueTime next = queue_.first_time();
+      if (!judging_.empty() && next > now_) [[unlikely]] judge_all();
       if (next > last) break;
       if (events_ >= pause_at) [[unlikely]] {
         if (events_ >= stop_at && next > now_) return false;
@@ -119,6 +120,11 @@ void Simulation::settle_all() {
   for (std::size_t i = 0; i < settling_.size(); ++i) settling_[i]->settle(*this);
   settling_.clear();
   settling_first_ = 0;
+}
+
+void Simulation::judge_all() {
+  for (Component* const component : judging_) component->settle(*this);
+  judging_.clear();
 }
 
 void Simulation::rethrow_with_context(const InvariantBroken& broken, const Event& event) const {

@@ -87,6 +87,10 @@ class Simulation {
   /// The same for a component whose settling is what others wait for: it settles before all who asked by settle_later().
   void settle_first(Component& component) { settling_.insert(settling_.begin() + settling_first_++, &component); }
 
+  /// Asks for component.settle() when the present instant is over for all nodes: every event has been handled, and all who asked have settled. For monitors, which
+  /// see what several nodes did and cause nothing.
+  void judge_later(Component& component) { judging_.push_back(&component); }
+
   /// True if nothing else happens at the present instant: no event is pending for it and nobody waits to settle. A handler
   /// may then do as its last act what it would otherwise leave to settle().
   bool instant_is_complete() { return settling_.empty() && queue_.has_none_until(now_); }
@@ -134,6 +138,7 @@ class Simulation {
   bool loop(TrueTime until, std::uint64_t max_events);
   void look_ahead() const;
   void settle_all();
+  void judge_all();
   void push_shuffled(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
   std::uint64_t unshuffled(std::uint64_t order) const;
   [[noreturn]] void rethrow_with_context(const InvariantBroken& broken, const Event& event) const;
@@ -141,6 +146,7 @@ class Simulation {
   TrueTime now_;
   std::vector<Component*> components_;
   std::vector<Component*> settling_;
+  std::vector<Component*> judging_;
   std::ptrdiff_t settling_first_ = 0;  // so many at the front of settling_ asked by settle_first()
   EventQueue queue_;
   std::uint64_t events_ = 0;

@@ -31,12 +31,14 @@ TEST(RunDigest, StarvedStreamsDifferByWhatWasProduced) {
 std::uint64_t digest_of_step(std::uint8_t transition, handshake::PublishedState to, handshake::Word word, std::int64_t at = 0) {
   sim::Simulation simulation(1);
   simulation.run(sim::TrueTime::from_ps(at));
-  ProgramMonitor monitor(simulation, 0, handshake::Variant::robust, 2, {});
+  Observations observations(simulation);
+  ProgramMonitor monitor(simulation, observations, 0, handshake::Variant::robust, 2, {});
   handshake::Outputs outputs;
   outputs.change_count = 1;
   outputs.change[0] = {transition, handshake::PublishedState::Halted, to};
   word.state = to;
   monitor.on_step(0, outputs, word);
+  simulation.run(sim::TrueTime::from_ps(at));   // to the end of the instant
   return simulation.digest().value();
 }
 

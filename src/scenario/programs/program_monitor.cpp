@@ -18,11 +18,25 @@ std::uint64_t content_of(const handshake::Word& word) {
 }
 }  // namespace
 
-ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants, std::vector<sim::Duration> instants)
-    : simulation_(&simulation), number_(number), observer_(variant, participants), tracker_(participants), nodes_(participants), is_dead_(participants, false), instants_(std::move(instants)), counts_(instants_) {}
+ProgramMonitor::ProgramMonitor(sim::Simulation& simulation, Observations& observations, std::uint32_t number, handshake::Variant variant, std::size_t participants,
+                               std::vector<sim::Duration> instants)
+    : simulation_(&simulation), observations_(&observations), variant_(variant), sending_(participants), number_(number), observer_(variant, participants), tracker_(participants), nodes_(participants), is_dead_(participants, false), instants_(std::move(instants)), counts_(instants_) {}
+
+void ProgramMonitor::judge(const Observation& what) {
+  std::visit([this](const auto& each) { judge(each); }, what);
+}
 
 void ProgramMonitor::on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after) {
   if (outputs.is_quiet()) return;
+  for (const handshake::StateChange& change : outputs.changes()) {
+    sending_[participant] = change.to;
+    if (variant_ == handshake::Variant::paper && handshake::RunHistory<handshake::AnyStorage>::begins_round(change)) ++rounds_;
+  }
+  observe(observed::Step{participant, outputs, after});
+}
+
+void ProgramMonitor::judge(const observed::Step& step) {
+  const auto& [participant, outputs, after] = step;
   observer_.on_step(participant, outputs, after);
   const handshake::Origin origin = outputs.raised ? origin_of(outputs) : handshake::Origin();
   if (tree_ != nullptr) tree_->on_step(group_, participant, outputs, after, origin);
@@ -52,11 +66,12 @@ handshake::Origin ProgramMonitor::origin_of(const handshake::Outputs& outputs) c
   return {};
 }
 
-void ProgramMonitor::on_silence(std::size_t participant, std::size_t peer, sim::TrueTime since) {
-  silence_ = explain_silence(faults_, nodes_[peer], nodes_[participant], since, simulation_->now());
+void ProgramMonitor::judge(const observed::Silence& silence) {
+  silence_ = explain_silence(faults_, nodes_[silence.peer], nodes_[silence.participant], silence.since, simulation_->now());
 }
 
-void ProgramMonitor::on_call(std::size_t participant, program::Method method, program::StatusCode status) {
+void ProgramMonitor::judge(const observed::Call& call) {
+  const auto& [participant, method, status] = call;
   is_called_ = false;
   calls_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), method, status});
   simulation_->digest().add(method_called, static_cast<std::uint64_t>(number_) << 32 | participant, simulation_->now(),
@@ -64,6 +79,17 @@ void ProgramMonitor::on_call(std::size_t participant, program::Method method, pr
 }
 
 void ProgramMonitor::on_crash(std::size_t participant, handshake::PublishedState before) {
+  sending_[participant] = handshake::PublishedState::Halted;
+  observe(observed::Crash{participant, before});
+}
+
+void ProgramMonitor::on_gone(std::size_t participant, handshake::PublishedState before) {
+  sending_[participant] = handshake::PublishedState::Halted;
+  observe(observed::Gone{participant, before});
+}
+
+void ProgramMonitor::judge(const observed::Crash& crash) {
+  const auto& [participant, before] = crash;
   is_dead_[participant] = true;
   lives_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), false});
   if (tree_ != nullptr) tree_->on_crash(group_, participant);
@@ -71,13 +97,15 @@ void ProgramMonitor::on_crash(std::size_t participant, handshake::PublishedState
   note_gone(participant, before);
 }
 
-void ProgramMonitor::on_gone(std::size_t participant, handshake::PublishedState before) {
+void ProgramMonitor::judge(const observed::Gone& gone) {
+  const auto& [participant, before] = gone;
   if (tree_ != nullptr) tree_->on_gone(group_, participant);
   tracker_.on_leave(participant, simulation_->now());
   note_gone(participant, before);
 }
 
-void ProgramMonitor::on_back(std::size_t participant, std::uint32_t node) {
+void ProgramMonitor::judge(const observed::Back& back) {
+  const auto& [participant, node] = back;
   nodes_[participant] = node;
   if (is_dead_[participant]) {
     last_back_ = simulation_->now();
@@ -98,7 +126,8 @@ void ProgramMonitor::note_gone(std::size_t participant, handshake::PublishedStat
     history_.push_back({simulation_->now(), static_cast<std::uint8_t>(participant), {0, before, handshake::PublishedState::Halted}});
 }
 
-void ProgramMonitor::on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in) {
+void ProgramMonitor::judge(const observed::ProcessData& data) {
+  const auto& [from, to, sent_in] = data;
   ++process_data_received_;
   counts_.add(simulation_->now(), [](Counts& counts) { ++counts.process_data_received; });
   observer_.on_process_data(from, to, sent_in);

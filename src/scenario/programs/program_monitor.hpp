@@ -8,6 +8,7 @@
 
 #include "handshake/observer.hpp"
 #include "handshake/reaction.hpp"
+#include "scenario/programs/observations.hpp"
 #include "scenario/programs/program_faults.hpp"
 #include "scenario/programs/round_trips.hpp"
 #include "scenario/programs/tree_monitor.hpp"
@@ -52,7 +53,9 @@ class ProgramMonitor {
   };
 
   /// `number` tells programs apart in the digest. Counts and round trips are kept from each of the instants on. At most `most_records` changes of state are kept for the time line.
-  ProgramMonitor(sim::Simulation& simulation, std::uint32_t number, handshake::Variant variant, std::size_t participants, std::vector<sim::Duration> instants);
+  /// What participants do is judged when the instant is over: on_...() hand it to `observations`, which outlives the monitor.
+  ProgramMonitor(sim::Simulation& simulation, Observations& observations, std::uint32_t number, handshake::Variant variant, std::size_t participants,
+                 std::vector<sim::Duration> instants);
 
   /// Its program is group number `group` of a tree.
   void set_tree(TreeMonitor& tree, std::size_t group) { tree_ = &tree, group_ = group; }
@@ -63,21 +66,27 @@ class ProgramMonitor {
 
   void on_step(std::size_t participant, const handshake::Outputs& outputs, const handshake::Word& after);
   /// A method is about to be called; on_call says what came of it.
-  void before_call() { is_called_ = true; }
-  void on_call(std::size_t participant, program::Method method, program::StatusCode status);
+  void before_call() { observe(observed::CallBegins{}); }
+  void on_call(std::size_t participant, program::Method method, program::StatusCode status) { observe(observed::Call{participant, method, status}); }
   /// The node of a participant that was in this state has failed: it is dead, and knows nothing when it comes back.
   void on_crash(std::size_t participant, handshake::PublishedState before);
   /// The participant is nobody any more, without a fault: its role has another node, or none.
   void on_gone(std::size_t participant, handshake::PublishedState before);
   /// The participant is there (again), on this node.
-  void on_back(std::size_t participant, std::uint32_t node);
+  void on_back(std::size_t participant, std::uint32_t node) { observe(observed::Back{participant, node}); }
   /// The script has let a node leave that has a role.
-  void on_leave() { last_leave_ = simulation_->now(); }
+  void on_leave() { observe(observed::Leave{}); }
   /// The time-out of a peer, last heard at `since`, has expired at a participant: what its next step does is because of that.
-  void on_silence(std::size_t participant, std::size_t peer, sim::TrueTime since);
+  void on_silence(std::size_t participant, std::size_t peer, sim::TrueTime since) { observe(observed::Silence{participant, peer, since}); }
   sim::TrueTime now() const { return simulation_->now(); }
-  void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in);
-  std::uint32_t sending_run(std::size_t participant) const { return observer_.sending_run(participant); }
+  void on_process_data(std::size_t from, std::size_t to, std::uint32_t sent_in) { observe(observed::ProcessData{from, to, sent_in}); }
+  /// The number of rounds begun so far by anybody, if the participant is Running; 0 otherwise. It goes with what the participant sends now. Only of `paper`.
+  std::uint32_t sending_run(std::size_t participant) const { return sending_[participant] == handshake::PublishedState::Running ? rounds_ : 0; }
+
+  /// The instant is over in which that was observed.
+  void judge(const Observation& what);
+  void judge(const observed::Gone& gone);
+  void judge(const observed::Back& back);
 
   /// The round trips of replies are measured.
   void set_round_trips(const ResolvedProgram& program) { round_trips_.emplace(program, instants_); }
@@ -105,11 +114,23 @@ class ProgramMonitor {
 
  private:
   static constexpr std::size_t most_records = 10'000;
+  void observe(const Observation& what) { observations_->add(*this, what); }
+  void judge(const observed::Step& step);
+  void judge(const observed::CallBegins&) { is_called_ = true; }
+  void judge(const observed::Call& call);
+  void judge(const observed::Crash& crash);
+  void judge(const observed::Leave&) { last_leave_ = simulation_->now(); }
+  void judge(const observed::Silence& silence);
+  void judge(const observed::ProcessData& data);
   void note_violations();
   void note_gone(std::size_t participant, handshake::PublishedState before);
   handshake::Origin origin_of(const handshake::Outputs& outputs) const;
 
   sim::Simulation* simulation_;
+  Observations* observations_;
+  handshake::Variant variant_;
+  std::vector<handshake::PublishedState> sending_;   // by participant, up to now
+  std::uint32_t rounds_ = 0;                         // begun up to now; `paper` only
   TreeMonitor* tree_ = nullptr;
   std::size_t group_ = 0;
   std::uint32_t number_;

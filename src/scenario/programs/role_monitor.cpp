@@ -5,20 +5,11 @@ namespace {
 constexpr std::uint32_t role_bound = 104;  // kind of digest record; see program_monitor.cpp
 }
 
-void RoleMonitor::on_bound(std::size_t role, const handshake::Binding& binding) {
-  if (bound_now_.empty()) simulation_->settle_later(*this);
-  bound_now_.emplace_back(role, binding);
-}
-
-void RoleMonitor::settle(sim::Simulation&) {
-  for (const auto& [role, binding] : std::exchange(bound_now_, {})) bind(role, binding);
-}
-
-void RoleMonitor::bind(std::size_t role, const handshake::Binding& binding) {
+void RoleMonitor::judge_binding(std::size_t role, const handshake::Binding& binding) {
   const handshake::RoleObserver::Change change = observers_[role].on_bound(binding, state_of_(binding));
   if (!change.is_new) return;
-  if (change.gone) program_->on_gone(role + 1, *change.gone);
-  if (binding.bound()) program_->on_back(role + 1, nodes_[binding.candidate]);
+  if (change.gone) program_->judge(observed::Gone{role + 1, *change.gone});
+  if (binding.bound()) program_->judge(observed::Back{role + 1, nodes_[binding.candidate]});
   simulation_->digest().add(role_bound, static_cast<std::uint64_t>(number_) << 32 | role, simulation_->now(),
                             static_cast<std::uint64_t>(binding.candidate) << 32 | binding.life);
   if (!change.is_another || history_.size() >= most_records) return;

@@ -112,7 +112,7 @@ class Run::Script final : public sim::Component {
 };
 
 Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle, models::Share share)
-    : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan, share) {
+    : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan, share), observations_(simulation_) {
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   nest_programs();
@@ -154,7 +154,7 @@ auto Run::LiveProgram::who_is(std::size_t participant) const -> const LiveMember
 void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
   auto live = std::make_unique<LiveProgram>();
   const ProgramFormats formats = formats_of(program, resolved_->topology);
-  live->monitor = std::make_unique<ProgramMonitor>(simulation_, number, formats.program->shape().variant, program.participant_names.size(), instants_);
+  live->monitor = std::make_unique<ProgramMonitor>(simulation_, observations_, number, formats.program->shape().variant, program.participant_names.size(), instants_);
   std::vector<std::uint32_t> nodes(program.participant_names.size());
   for (std::size_t p = 0; p < program.participants().size(); ++p) nodes[p] = program.members[p].node.value;
   live->monitor->set_nodes(std::move(nodes));
@@ -166,7 +166,7 @@ void Run::add_program(std::uint32_t number, const ResolvedProgram& program) {
     const auto state_of = [raw = live.get()](const handshake::Binding& binding) {
       return binding.bound() ? raw->members[binding.candidate + std::size_t{1}].application->state_of(binding.life) : std::nullopt;
     };
-    live->roles = std::make_unique<RoleMonitor>(simulation_, number, *live->monitor, formats.roles->roles(), std::move(candidates), state_of);
+    live->roles = std::make_unique<RoleMonitor>(simulation_, observations_, number, *live->monitor, formats.roles->roles(), std::move(candidates), state_of);
   }
   for (std::size_t m = 0; m < program.members.size(); ++m) {
     const ResolvedMember& member = program.members[m];

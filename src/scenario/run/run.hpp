@@ -7,6 +7,7 @@
 
 #include "models/network.hpp"
 #include "scenario/applications/topic_application.hpp"
+#include "scenario/programs/observations.hpp"
 #include "scenario/programs/program_application.hpp"
 #include "scenario/programs/program_monitor.hpp"
 #include "scenario/resolve/resolved.hpp"
@@ -95,6 +96,7 @@ class Run {
   std::vector<Duration> instants_;   // from which accounts are kept
   sim::Simulation simulation_;
   models::Network network_;
+  Observations observations_;
   std::vector<std::unique_ptr<LiveProgram>> programs_;
   std::unique_ptr<ApplicationMonitor> application_monitor_;
   std::vector<TopicApplication*> applications_;

@@ -1,0 +1,104 @@
+// What the participants of Programs do at one instant. The monitors judge it when the instant is over.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "handshake/binder.hpp"
+#include "handshake/participant.hpp"
+#include "sim/simulation.hpp"
+
+namespace takt::scenario {
+
+class ProgramMonitor;
+class RoleMonitor;
+
+namespace observed {
+
+struct Step {
+  std::size_t participant = 0;
+  handshake::Outputs outputs;
+  handshake::Word after;
+};
+/// The script is about to call a method.
+struct CallBegins {};
+struct Call {
+  std::size_t participant = 0;
+  program::Method method = program::Method::Start;
+  program::StatusCode status = program::StatusCode::Good;
+};
+/// The node of a participant that was in this state has failed.
+struct Crash {
+  std::size_t participant = 0;
+  handshake::PublishedState before{};
+};
+/// A participant has ended without a fault.
+struct Gone {
+  std::size_t participant = 0;
+  handshake::PublishedState before{};
+};
+struct Back {
+  std::size_t participant = 0;
+  std::uint32_t node = 0;
+};
+/// The script has let a node leave that has a role.
+struct Leave {};
+/// The time-out of a peer, last heard at `since`, has expired at a participant.
+struct Silence {
+  std::size_t participant = 0;
+  std::size_t peer = 0;
+  sim::TrueTime since;
+};
+struct ProcessData {
+  std::size_t from = 0;
+  std::size_t to = 0;
+  std::uint32_t sent_in = 0;
+};
+
+}  // namespace observed
+
+using Observation = std::variant<observed::Step, observed::CallBegins, observed::Call, observed::Crash, observed::Gone, observed::Back, observed::Leave, observed::Silence, observed::ProcessData>;
+
+/// Shared by the monitors of a run. No node sees what another one does at the same instant, but monitors compare nodes. So they see an
+/// instant as a whole: first what participants did, in the order of events; then which node each role has got.
+class Observations final : public sim::Component {
+ public:
+  explicit Observations(sim::Simulation& simulation) : simulation_(&simulation) {}
+
+  void add(ProgramMonitor& monitor, const Observation& what) {
+    ask();
+    seen_.push_back({&monitor, what});
+  }
+  /// The master has given the role to a node, or taken it away.
+  void add_binding(RoleMonitor& monitor, std::size_t role, const handshake::Binding& binding) {
+    ask();
+    bindings_.push_back({&monitor, role, binding});
+  }
+
+  void handle(sim::Simulation&, const sim::Event&) override {}
+  /// The instant is over.
+  void settle(sim::Simulation& simulation) override;
+
+ private:
+  void ask() {
+    if (seen_.empty() && bindings_.empty()) simulation_->judge_later(*this);
+  }
+
+  struct Seen {
+    ProgramMonitor* monitor;
+    Observation what;
+  };
+  struct Bound {
+    RoleMonitor* monitor;
+    std::size_t role;
+    handshake::Binding binding;
+  };
+  sim::Simulation* simulation_;
+  std::vector<Seen> seen_;
+  std::vector<Bound> bindings_;
+};
+
+}  // namespace takt::scenario

@@ -104,6 +104,7 @@ void Network::set_up_gptp() {
     const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
     stations_[n] = std::make_unique<gptp::Station>(*simulation_, traffic_, ports, *clocks_[n], plan_.nodes[n].clock->timestamps,
                                                    plan_.gptp_stations[*plan_.gptp[n]], NodeIndex{n}, *gptp_stream_, plan_.nodes[n].name);
+    simulation_->group(stations_[n]->id(), component_of(NodeIndex{n}));
     if (cpus_[n] && plan_.nodes[n].cpu->gptp) stations_[n]->run_on(*cpus_[n], *plan_.nodes[n].cpu->gptp);
     if (bridges_[n]) bridges_[n]->set_link_local_receiver(stations_[n].get());
     if (hosts_[n]) hosts_[n]->set_link_local_receiver(stations_[n].get());
@@ -160,6 +161,7 @@ void Network::add_talker(const TalkerPlan& talker) {
   talkers_.push_back(std::make_unique<Talker>(*simulation_, traffic_, output, clock_of(stream.talker), plan_.os_latencies[node.os_latency],
                                               node.name + "/" + (talker.name.empty() ? stream.name : talker.name), talker.stream, talker.payload,
                                               talker.schedule));
+  simulation_->group(talkers_.back()->id(), component_of(stream.talker));
   talkers_.back()->set_until(talker.until);
   if (talker.babbles) {
     talkers_.back()->set_babbling();
@@ -331,8 +333,10 @@ void Network::make_nodes() {
     if (!node.is_end_station()) continue;
     hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name, ports, clock_of(NodeIndex{n}),
                                        chooses_ports(NodeIndex{n}), node.cpu && node.cpu->receive);
+    simulation_->group(hosts_[n]->id(), component_of(NodeIndex{n}));
     if (node.cpu) {
       cpus_[n] = std::make_unique<Cpu>(*simulation_, *node.cpu, NodeIndex{n}, node.name);
+      simulation_->group(cpus_[n]->id(), component_of(NodeIndex{n}));
       if (node.cpu->receive) hosts_[n]->take_in_on(*cpus_[n], *node.cpu->receive);
     }
     if (!ports.empty()) outputs_[n] = std::make_unique<HostOutput>(traffic_, ports);
@@ -375,7 +379,7 @@ Attention& Network::attention_of(NodeIndex node) const { return plan_.nodes[node
 
 void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {
   TAKT_CHECK(link.rate.has_exact_octet_time(), "a link's octet lasts a whole number of picoseconds");
-  mutable_ports(from.node)[from.port].connect(*simulation_, shared_, port_config_of(from), clock_of(from.node),
+  mutable_ports(from.node)[from.port].connect(*simulation_, component_of(from.node), shared_, port_config_of(from), clock_of(from.node),
                                               link.rate.octet_time(),
                                               {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node), fixed_delay_of(to.node), &attention_of(to.node)},
                                               mutable_ports(to.node)[to.port].link());
@@ -410,6 +414,7 @@ Process& Network::make_process(NodeIndex host, std::string_view name, std::uniqu
   }
   processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), clock_of(host), *latency, node.name + "/" + std::string(name),
                                                  std::move(application)));
+  simulation_->group(processes_.back()->id(), component_of(host));
   if (node.cpu) {
     threads.transmit = node.cpu->transmit;
     processes_.back()->run_on(*cpus_[host.value], std::move(threads));

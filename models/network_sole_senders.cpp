@@ -27,7 +27,7 @@ void Network::find_sole_senders() {
 
 bool Network::may_serve_one(const LinkPlan::End& end) const {
   const std::span<const EgressPort> all = ports(end.node);
-  return all.size() == 1 && !chooses_ports(end.node) && all[0].sends_plainly() && all[0].decides_by_itself() && !end.gates_may_change;
+  return all.size() == 1 && !chooses_ports(end.node) && all[0].sends_plainly() && all[0].has_queues_only() && shared_.link_local == nullptr && !end.gates_may_change;
 }
 
 }  // namespace takt::models

@@ -131,8 +131,10 @@ class NearEvents {
     return &sorted_[count_ - 1];
   }
 
-  // Precondition of both: sorted_count() is not 0.
+  // Precondition of these: sorted_count() is not 0.
   TrueTime first_time() const { return sorted_[count_ - 1].time; }
+  const Event* upcoming_first() const { return &sorted_[count_ - 1]; }
+  void drop_first() { --count_; }
   [[gnu::always_inline]] Event pop() { return sorted_[--count_]; }
 
   /// Sorts the event in, where it comes before the rest and the array has room for it; otherwise it does nothing and returns false.
@@ -204,12 +206,15 @@ class EventQueue {
     return near_.first_time();
   }
 
-  /// Whether no event is due by then. Unlike first_time() it stays where it is: whoever asks may still push what comes before all that waits.
-  bool has_none_until(TrueTime now) {
-    if (const Event* const event = near_.first()) [[likely]] return event->time > now;
-    return waiting() == 0 || now < near_end_ || first_time() > now;
+  /// The first event, or null. It may move events from the calendar to the near part.
+  const Event* first() {
+    if (near_.sorted_count() < low_water_) [[unlikely]] {
+      if (!top_up()) return nullptr;
+    }
+    return near_.upcoming_first();
   }
-
+  /// Removes it. Precondition: first() has just been asked and was not null.
+  void drop_first() { near_.drop_first(); }
   /// Removes and returns the first event. Precondition: first_time() has just been asked and was not never.
   Event pop() { return near_.pop(); }
 

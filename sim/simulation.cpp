@@ -6,8 +6,10 @@
 namespace takt::sim {
 namespace {
 
-// A bijection on 60 bits: two rounds of odd multiplication and xor-shift, so that the target can be found again.
+// A bijection on the bits of an id: two rounds of odd multiplication and xor-shift, so that the id can be found again.
 constexpr std::uint64_t multiplier = 0x5851F42D4C957F2DULL;
+constexpr int shift = 15;
+static_assert(2 * shift >= Event::source_bits, "a shift by half is its own inverse");
 
 constexpr std::uint64_t inverse_of(std::uint64_t odd) {
   std::uint64_t inverse = odd;  // Newton's iteration doubles the number of right bits each time
@@ -18,42 +20,51 @@ static_assert(multiplier * inverse_of(multiplier) == 1);
 
 constexpr std::uint64_t scramble(std::uint64_t x, std::uint64_t key) {
   for (int round = 0; round < 2; ++round) {
-    x = ((x ^ key) * multiplier) & Event::pair_mask;
-    x ^= x >> 30;
+    x = ((x ^ key) * multiplier) & Event::id_mask;
+    x ^= x >> shift;
   }
-  return x & Event::pair_mask;
+  return x;
 }
 
 constexpr std::uint64_t unscramble(std::uint64_t x, std::uint64_t key) {
   for (int round = 0; round < 2; ++round) {
-    x ^= x >> 30;  // its own inverse, since 30 is half of 60
-    x = ((x * inverse_of(multiplier)) & Event::pair_mask) ^ key;
+    x ^= x >> shift;
+    x = ((x * inverse_of(multiplier)) & Event::id_mask) ^ (key & Event::id_mask);
   }
-  return x & Event::pair_mask;
+  return x;
 }
 
-constexpr std::uint64_t phase_mask = ~Event::pair_mask;
+/// Node and source each by a half of the key; the rest stays.
+template <class Change>
+std::uint64_t with_ids(std::uint64_t order, std::uint64_t key, Change&& change) {
+  constexpr std::uint64_t ids = Event::id_mask << Event::node_shift | Event::id_mask;
+  return (order & ~ids) | change(order >> Event::node_shift & Event::id_mask, key >> 30) << Event::node_shift | change(order & Event::id_mask, key);
+}
 
 }  // namespace
 
 ComponentId Simulation::add(Component& component) {
   TAKT_CHECK(components_.size() < max_components, "too many components");
   components_.push_back(&component);
-  return {static_cast<std::uint32_t>(components_.size() - 1)};
+  node_of_.push_back({static_cast<std::uint32_t>(components_.size() - 1)});
+  return node_of_.back();
+}
+
+void Simulation::group(ComponentId component, ComponentId front) {
+  TAKT_CHECK(node_of(front) == front, "a node has the id of one of its components");
+  node_of_[component.index] = front;
 }
 
 void Simulation::set_tie_shuffle(std::uint64_t key) {
   TAKT_CHECK(queue_.empty() && events_ == 0, "tie shuffle must be set before the first event");
-  tie_shuffle_ = key & Event::pair_mask;
+  tie_shuffle_ = key & ((1ULL << 60) - 1);
 }
 
 void Simulation::push_shuffled(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
-  queue_.push({time, (order & phase_mask) | scramble(order & Event::pair_mask, tie_shuffle_), serial_kind, argument});
+  queue_.push({time, with_ids(order, tie_shuffle_, scramble), serial_kind, argument});
 }
 
-std::uint64_t Simulation::unshuffled(std::uint64_t order) const {
-  return (order & phase_mask) | unscramble(order & Event::pair_mask, tie_shuffle_);
-}
+std::uint64_t Simulation::unshuffled(std::uint64_t order) const { return with_ids(order, tie_shuffle_, unscramble); }
 
 bool Simulation::run(TrueTime until, std::uint64_t max_events) {
   if (tie_shuffle_ != 0) return loop<true, false>(until, max_events);
@@ -84,51 +95,79 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
   const TrueTime last = std::min(until, TrueTime::never() - Duration::from_ps(1));
   // From so many events on it looks whether to stop, and how many are pending.
   std::uint64_t pause_at = std::min(stop_at, (events_ | 0x3FF) + 1);
-  Event event;
   try {
     for (;;) {
-      if (!settling_.empty() && queue_.has_none_until(now_)) {
-        settle_all();
-        continue;
-      }
-      const TrueTime next = queue_.first_time();
-      if (!judging_.empty() && next > now_) [[unlikely]] judge_all();
-      if (next > last) break;
+      const Event* first = queue_.first();
+      if (first == nullptr || first->time > last) break;
       if (events_ >= pause_at) [[unlikely]] {
-        if (events_ >= stop_at && next > now_) return false;
+        if (events_ >= stop_at && first->time > now()) {
+          event_.order = 0;
+          return false;
+        }
         pending_peak_ = std::max(pending_peak_, queue_.size());
         queue_.tune(events_ - tuned_at_);
         tuned_at_ = events_;
         pause_at = std::min(stop_at, (events_ | 0x3FF) + 1);
+        first = queue_.first();
       }
-      event = queue_.pop();
-      if constexpr (is_shuffled) event.order = unshuffled(event.order);
+      event_ = *first;
+      queue_.drop_first();
       if constexpr (looks_ahead) look_ahead();
-      now_ = event.time;
       ++events_;
-      components_[event.target().index]->handle(*this, event);
+      if constexpr (is_shuffled) {
+        const Event event(event_.time, at_work(), event_.serial_kind, event_.argument);
+        components_[event.target().index]->handle(*this, event);
+      } else {
+        components_[event_.target().index]->handle(*this, event_);
+      }
+      if (!deciding_.empty()) [[unlikely]] decide_all();
     }
   } catch (const InvariantBroken& broken) {
-    rethrow_with_context(broken, event);
+    rethrow_with_context(broken);
   }
-  now_ = std::max(now_, until);
+  event_ = Event(std::max(now(), until), 0, 0, 0);
   return true;
 }
 
-void Simulation::settle_all() {
-  // A component may ask again while it settles (never for itself twice); the list may therefore grow.
-  for (std::size_t i = 0; i < settling_.size(); ++i) settling_[i]->settle(*this);
-  settling_.clear();
-  settling_first_ = 0;
+/// Of the node at work, if that was its last event of the instant.
+void Simulation::decide_all() {
+  const Event* const next = queue_.next_at(now());
+  if (next != nullptr && Event::place_of(next->order ^ event_.order) == 0) return;
+event_.order = Event::with_phase(event_.order, Phase::decision) & ~Event::is_own;
+  // A component may ask again while it decides; the list may therefore grow.
+  while (decided_ < deciding_.size()) deciding_[decided_++].component->decide(*this);
+  deciding_.clear();
+  decided_ = 0;
 }
 
-void Simulation::judge_all() {
-  for (Component* const component : judging_) component->settle(*this);
-  judging_.clear();
+void Simulation::decide_later_slow(ComponentId component, Decision decision, std::uint64_t order) {
+  if (Event::place_of(order ^ at_work()) != 0) {
+    EventSource source(component);
+    schedule(source, now(), order, decide_now, 0);
+    return;
+  }
+  auto at = deciding_.end();
+  while (at != deciding_.begin() + static_cast<std::ptrdiff_t>(decided_) && decision < at[-1].decision) --at;
+  deciding_.insert(at, {components_[component.index], decision});
 }
 
-void Simulation::rethrow_with_context(const InvariantBroken& broken, const Event& event) const {
-  throw InvariantBroken(std::string(broken.what()) + "\n  at " + std::to_string(now_.ps()) + " ps, event " +
+/// What is scheduled for the present instant, and everything under the tie shuffle.
+void Simulation::push_checked(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+  TAKT_CHECK(time >= now(), "an event cannot be scheduled in the past");
+  if (time == now() && Event::place_of(order ^ at_work()) != 0) {
+    const std::uint64_t stage = order >> Event::stage_shift;
+    const std::uint64_t stage_at_work = event_.order >> Event::stage_shift;
+    TAKT_CHECK(stage > stage_at_work || stage_at_work == 0, "nothing of one node reaches another one at the same instant");
+  }
+  if (tie_shuffle_ != 0)
+    push_shuffled(time, order, serial_kind, argument);
+  else
+    queue_.push({time, order, serial_kind, argument});
+}
+
+void Simulation::rethrow_with_context(const InvariantBroken& broken) const {
+  const Event event(event_.time, at_work(), event_.serial_kind, event_.argument);
+  throw InvariantBroken(std::string(broken.what()) + "\n  at " + std::to_string(now().ps()) + " ps, event " +
                         std::to_string(events_) + " (kind " + std::to_string(event.kind()) + " for component " +
                         std::to_string(event.target().index) + "), seed " + std::to_string(seed_));
 }

@@ -8,13 +8,28 @@ constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);
 constexpr auto stored_for_host = static_cast<sim::EventKind>(static_cast<unsigned>(NodeEvent::first_free) + 1);
 }
 
-/// Of a frame that is on its stream's route the port is remembered.
-inline std::uint32_t Bridge::port_for(Frame& frame) {
-  if (routes_ == nullptr || !frame.on_route || frame.hop >= Routes::most_hops) return filtering_database_.port_at_once(frame.vlan, frame.destination);
-  const std::uint32_t port = routes_->at(frame) - first_port_;
-  if (port >= port_count_) [[unlikely]] return look_up(frame);
-  ++frame.hop;
-  return port;
+/// Nothing else comes to the bridge at this instant, as a rule: then the port decides at once. The only call is a tail call, so no registers are saved.
+inline void Bridge::route_to(sim::Simulation& simulation, FrameIndex index, const Frame& frame, std::uint16_t from, std::uint32_t port) {
+  if (port != FilteringDatabase::not_at_once && port != from && simulation.is_last()) [[likely]]
+    ports_[port].offer_last(simulation, index, frame, from);
+  else
+    route_among_others(simulation, index, from, port);
+}
+
+/// A frame that has passed whatever comes before the filtering database. Of one that is on its stream's route the port is remembered.
+inline void Bridge::route(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from) {
+  if (routes_ == nullptr || !frame.on_route || frame.hop >= Routes::most_hops) {
+    route_to(simulation, index, frame, from, filtering_database_.port_at_once(frame.vlan, frame.destination));
+  } else if (const std::uint32_t port = routes_->at(frame) - first_port_; port < port_count_) [[likely]] {
+    ++frame.hop;
+    route_to(simulation, index, frame, from, port);
+  } else {
+    route_looked_up(simulation, index, frame, from);
+  }
+}
+
+void Bridge::route_looked_up(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from) {
+  route_to(simulation, index, frame, from, look_up(frame));
 }
 
 std::uint32_t Bridge::look_up(Frame& frame) {
@@ -25,135 +40,70 @@ std::uint32_t Bridge::look_up(Frame& frame) {
   return is_one ? entry.port() : FilteringDatabase::not_at_once;
 }
 
-/// The way of nearly every frame: it calls nothing but what it ends with.
-inline void Bridge::pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
-  Frame& frame = traffic_->frame(arrival.frame);
-  const std::uint32_t port = port_for(frame);
-  if (port != FilteringDatabase::not_at_once && port != arrival.port && simulation.instant_is_surely_complete() && !holds_) [[likely]]
-    ports_[port].offer_last(simulation, arrival.frame, frame, arrival.port);
+void Bridge::route_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::uint32_t port) {
+  if (port != FilteringDatabase::not_at_once && port != from)
+    ports_[port].offer(simulation, frame, from);
   else
-    pass_on_among_others(simulation, event, arrival, port, frame);
-}
-
-/// Something else happens at this instant, but seldom does more come to the bridge: then a plain port need not wait for its end, when it has long left the cache. Here, too, nothing is
-/// called but what it ends with.
-void Bridge::pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port, const Frame& frame) {
-  if (port == FilteringDatabase::not_at_once || port == arrival.port || holds_) [[unlikely]]
-    pass_on_closely(simulation, event, arrival, port);
-  else if (EgressPort& egress = ports_[port]; routes_ == nullptr || !egress.decides_by_itself() || !simulation.events_follow_targets())
-    egress.offer_last(simulation, arrival.frame, frame, arrival.port);
-  else if (simulation.surely_none_follows(event)) [[likely]]
-    egress.take_alone(simulation, arrival.frame, frame, arrival.port);
-  else
-    pass_on_closely(simulation, event, arrival, port);
-}
-
-void Bridge::pass_on_closely(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port) {
-  if (port == FilteringDatabase::not_at_once || port == arrival.port || holds_ || simulation.another_follows(event))
-    gather(simulation, event, arrival, port);
-  else
-    ports_[port].take_alone(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
-}
-
-/// More may come to the bridge at this instant. All of it is for the bridge's own events, one after the other.
-void Bridge::gather(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port) {
-  if (port == FilteringDatabase::not_at_once || port == arrival.port) {
-    forward(simulation, arrival.frame, arrival.port, nullptr);
-  } else if (EgressPort& egress = ports_[port]; routes_ == nullptr || !egress.decides_by_itself() || !simulation.events_follow_targets()) {
-    egress.offer_last(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
-  } else if (holds_ || simulation.another_follows(event)) {
-    if (egress.gather(arrival.frame, arrival.port)) held_.push_back(&egress);
-    holds_ = true;
-  } else {
-    egress.take_alone(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
-  }
-  release_if_last(simulation, event);
-}
-
-/// When nothing more comes to the bridge at this instant, whatever the last event was.
-inline void Bridge::release_if_last(sim::Simulation& simulation, const sim::Event& event) {
-  if (!holds_ || simulation.another_follows(event)) return;
-  for (EgressPort* const port : held_) port->decide(simulation);
-  held_.clear();
-  holds_ = false;
+    forward(simulation, frame, from, nullptr);
 }
 
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
-  const bool has_arrived = event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived);
-  if (!attention_.is_needed() && arrival.flags == 0 && has_arrived) [[likely]]
-    pass_on(simulation, event, arrival);
-  else if (only_polices_ && has_arrived && (arrival.flags & ~unsigned{ArrivalArgument::check}) == 0 && simulation.instant_is_surely_complete() && !attention_.asks_links())
-    police_alone(simulation, arrival);
-  else if (!attention_.is_demanded() && arrival.flags == 0 && has_arrived)
-    receive_perhaps_cut(simulation, event, arrival);
+  if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
+    handle_internal(simulation, event, arrival);
+  else if (arrival.flags == 0 && !attention_.is_needed()) [[likely]]
+    route(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+  else if (only_polices_ && simulation.is_last() && !attention_.asks_links())
+    pass_chain(simulation, arrival);
   else
-    handle_seldom(simulation, event, arrival);
+    receive(simulation, arrival);
 }
 
-/// The way of nearly every frame through a bridge with a chain: nothing else comes at this instant, so nothing can come before it, and the frame stays as it is.
-void Bridge::police_alone(sim::Simulation& simulation, ArrivalArgument arrival) {
+/// Most frames through a bridge with a chain: sound, nothing else comes at this instant, and they stay as they are. If not, nothing has changed, and receive() follows.
+void Bridge::pass_chain(sim::Simulation& simulation, ArrivalArgument arrival) {
   Frame& frame = traffic_->frame(arrival.frame);
-  const bool is_uncertain = arrival.flags != 0 && !ports_[arrival.port].incoming().surely_delivers();
+  const bool is_uncertain = arrival.flags != 0 && ((arrival.flags & ArrivalArgument::header_only) != 0 || !ports_[arrival.port].incoming().surely_delivers());
   if (is_uncertain || frame.bad_fcs || frame.link_local || (frame.marked && frame.references != 1)) [[unlikely]] {
-    police_alone_exactly(simulation, arrival);
+    receive(simulation, arrival);
     return;
   }
   if (frame.marked) unmark(frame);
-  if (!chain_->passes_as_it_is(frame, arrival.port, simulation.now() - forwarding_delay_)) [[unlikely]] {
-    police_alone_exactly(simulation, arrival);
-    return;
-  }
-  const std::uint32_t port = port_for(frame);
-  if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]]
-    ports_[port].take_only(simulation, arrival.frame, frame, arrival.port);
+  if (!chain_->passes_as_it_is(frame, arrival.port, simulation.now() - forwarding_delay_)) [[unlikely]]
+    receive(simulation, arrival);
   else
-    forward(simulation, arrival.frame, arrival.port, nullptr);
+    route(simulation, arrival.frame, frame, arrival.port);
 }
 
-void Bridge::police_alone_exactly(sim::Simulation& simulation, ArrivalArgument arrival) {
+/// A frame that its link may have lost, or a bridge that does more than forward.
+void Bridge::receive(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
-  if (arrival.flags != 0 && !ports_[arrival.port].incoming().receive(simulation, frame, arrival.flags)) return;
-  Frame& record = traffic_->frame(frame);
-  if (record.bad_fcs || record.link_local) [[unlikely]] {
-    take_in(simulation, frame, arrival.port, nullptr);
-    return;
+  Link& link = ports_[arrival.port].incoming();
+  if ((arrival.is_uncertain() || attention_.asks_links()) && !link.receive(simulation, frame, arrival.flags)) return;
+  if (tells_arrivals_ && simulation.trace() != nullptr)
+    simulation.trace()->record(
+        {simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value,
+         ArrivalDetail{arrival.port, link.sender(), (arrival.flags & ArrivalArgument::header_only) != 0}.pack()});
+  if (arrival.flags == 0 && !attention_.is_demanded()) {   // a plain bridge, to which the arrival of a frame that was cut has been announced
+    route(simulation, frame, traffic_->frame(frame), arrival.port);
+  } else if ((arrival.flags & ArrivalArgument::header_only) == 0) {
+    accept(simulation, frame, arrival.port, nullptr);
+  } else {
+    const Header header{link.complete_at(simulation.now(), traffic_->frame(frame)), &link};
+    accept(simulation, frame, arrival.port, &header);
   }
-  if (record.marked) frame = unmarked(frame, record);
-  const std::span<const FrameIndex> passed = chain_->pass(simulation, {frame, arrival.port, simulation.now() - forwarding_delay_});
-  if (passed.size() == 1) [[likely]] {
-    Frame& going_on = traffic_->frame(passed.front());
-    const std::uint32_t port = port_for(going_on);
-    if (port != FilteringDatabase::not_at_once && port != arrival.port) [[likely]] {
-      ports_[port].take_only(simulation, passed.front(), going_on, arrival.port);
-      return;
-    }
-  }
-  for (const FrameIndex copy : passed) forward(simulation, copy, arrival.port, nullptr);
 }
 
-void Bridge::handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
-  if (event.kind() == static_cast<sim::EventKind>(NodeEvent::frame_arrived))
-    look_closer(simulation, arrival);
-  else if (event.kind() == stored_for_host)
+void Bridge::handle_internal(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+  if (event.kind() == stored_for_host)
     take_stored(simulation, arrival);
   else
     leave(simulation, event.kind(), arrival.port);
-  release_if_last(simulation, event);
 }
 
 /// A frame is through the part of the bridge that takes a random time.
 void Bridge::leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from) {
   TAKT_CHECK(kind == leaves_now, "an event of another component");
   jitter_->leave(from, [&](FrameIndex frame) { forward(simulation, frame, from, nullptr); });
-}
-
-/// A frame was cut whose arrival has been announced to this bridge.
-void Bridge::receive_perhaps_cut(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
-  if (ports_[arrival.port].incoming().receive(simulation, arrival.frame, arrival.flags))
-    pass_on(simulation, event, arrival);
-  else
-    release_if_last(simulation, event);
 }
 
 void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
@@ -173,26 +123,8 @@ void Bridge::prefetch(const sim::Event& event, Ahead ahead) const {
   if (entry.found() && entry.is_one_port()) ports_[entry.port()].prefetch_hot();
 }
 
-/// A frame in a condition of its own, or a bridge that does more than forward.
-void Bridge::look_closer(sim::Simulation& simulation, ArrivalArgument arrival) {
-  FrameIndex frame = arrival.frame;
-  Link& link = ports_[arrival.port].incoming();
-  if ((arrival.is_uncertain() || attention_.asks_links()) && !link.receive(simulation, frame, arrival.flags)) return;
-  if (tells_arrivals_ && simulation.trace() != nullptr)
-    simulation.trace()->record(
-        {simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value,
-         ArrivalDetail{arrival.port, link.sender(), (arrival.flags & ArrivalArgument::header_only) != 0}.pack()});
-  Header header;
-  if ((arrival.flags & ArrivalArgument::header_only) != 0) {
-    header = {link.complete_at(simulation.now(), traffic_->frame(frame)), &link};
-    take_in(simulation, frame, arrival.port, &header);
-  } else {
-    take_in(simulation, frame, arrival.port, nullptr);
-  }
-}
-
 /// A frame that has come, or its header.
-void Bridge::take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header) {
+void Bridge::accept(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header) {
   if (header == nullptr && traffic_->frame(frame).bad_fcs) {
     traffic_->drop(frame, DropReason::bad_fcs, id_, simulation);
     return;
@@ -204,13 +136,15 @@ void Bridge::take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_
   if (Frame& record = traffic_->frame(frame); record.marked) frame = unmarked(frame, record);
   if (chain_ == nullptr) {
     pass_through(simulation, std::span(&frame, 1), from, header);
-    return;
+  } else if (simulation.is_last()) {
+    pass_through(simulation, chain_->pass(simulation, {frame, from, simulation.now() - forwarding_delay_}), from, header);
+  } else {
+    if (arrived_.empty()) simulation.decide_later(id_, sim::Decision::ingress);
+    arrived_.push_back({frame, from, header != nullptr, header != nullptr ? *header : Header{}});
   }
-  if (arrived_.empty()) simulation.settle_first(*this);
-  arrived_.push_back({frame, from, header != nullptr, header != nullptr ? *header : Header{}});
 }
 
-void Bridge::settle(sim::Simulation& simulation) {
+void Bridge::decide(sim::Simulation& simulation) {
   sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
   for (const Arrived& arrived : arrived_)
     pass_through(simulation, chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}), arrived.port, arrived.only_header ? &arrived.header : nullptr);
@@ -220,6 +154,10 @@ void Bridge::settle(sim::Simulation& simulation) {
 /// What has come in by one arrival goes on, at once or when its random time is over.
 void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header) {
   if (jitter_ == nullptr) {
+    if (frames.size() == 1 && header == nullptr && !untags_ && !traffic_->frame(frames[0]).link_local) [[likely]] {
+      route(simulation, frames[0], traffic_->frame(frames[0]), from);
+      return;
+    }
     for (const FrameIndex frame : frames) forward(simulation, frame, from, header);
     return;
   }

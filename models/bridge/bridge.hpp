@@ -77,7 +77,7 @@ class alignas(64) Bridge final : public sim::Component {
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   /// What the chain does to frames of one instant depends on their order: it sees them by port number.
-  void settle(sim::Simulation& simulation) override;
+  void decide(sim::Simulation& simulation) override;
   void prefetch(const sim::Event& event, Ahead ahead) const override;
 
  private:
@@ -92,20 +92,16 @@ class alignas(64) Bridge final : public sim::Component {
     bool only_header = false;
     Header header;
   };
-  void pass_on(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
-  std::uint32_t port_for(Frame& frame);
-  [[gnu::noinline]] std::uint32_t look_up(Frame& frame);
-  [[gnu::noinline]] void pass_on_closely(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
-  [[gnu::noinline]] void pass_on_among_others(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port, const Frame& frame);
-  [[gnu::noinline]] void gather(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival, std::uint32_t port);
-  void release_if_last(sim::Simulation& simulation, const sim::Event& event);
-  [[gnu::noinline]] void handle_seldom(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
+  std::uint32_t look_up(Frame& frame);
+  [[gnu::noinline]] void route_looked_up(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from);
+  void route_to(sim::Simulation& simulation, FrameIndex index, const Frame& frame, std::uint16_t from, std::uint32_t port);
+  void route(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from);
+  [[gnu::noinline]] void route_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::uint32_t port);
+  [[gnu::noinline]] void pass_chain(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive(sim::Simulation& simulation, ArrivalArgument arrival);
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
-  [[gnu::noinline]] void receive_perhaps_cut(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
-  void look_closer(sim::Simulation& simulation, ArrivalArgument arrival);
-  void take_in(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
-  [[gnu::noinline]] void police_alone(sim::Simulation& simulation, ArrivalArgument arrival);
-  [[gnu::noinline]] void police_alone_exactly(sim::Simulation& simulation, ArrivalArgument arrival);
+  [[gnu::noinline]] void handle_internal(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
+  void accept(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);
   /// Precondition: the record is not shared.
   static void unmark(Frame& frame) {
     frame.marked = false;
@@ -135,11 +131,9 @@ class alignas(64) Bridge final : public sim::Component {
   Attention attention_;
   std::uint32_t first_port_ = 0;
   bool only_polices_ = false;             // it looks closer because it has a chain, for no other reason
-  bool holds_ = false;                    // held_ is not empty
   Routes* routes_ = nullptr;              // null in stations and hosts
   std::uint32_t port_count_;
   FilteringDatabase filtering_database_;
-  std::vector<EgressPort*> held_;         // to which frames have come at this instant, and more may
   IngressChain* chain_ = nullptr;
   LinkLocalReceiver* link_local_ = nullptr;
   sim::Duration forwarding_delay_;

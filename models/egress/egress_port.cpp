@@ -15,10 +15,12 @@ void sort_by_rank(Arrivals& arrivals) {
 
 }  // namespace
 
-void EgressPort::connect(sim::Simulation& simulation, Shared& shared, const PortConfig& config, const LocalClock& clock,
+void EgressPort::connect(sim::Simulation& simulation, sim::ComponentId node, Shared& shared, const PortConfig& config, const LocalClock& clock,
                          sim::Duration octet_time, LinkEnd far_end, Link& incoming) {
   TAKT_CHECK(shared_ == nullptr, "a port has one link");
-  link_.connect(simulation.add(*this), *shared.traffic, octet_time, far_end);
+  const sim::ComponentId id = simulation.add(*this);
+  simulation.group(id, node);
+  link_.connect(id, node, *shared.traffic, octet_time, far_end);
   shared_ = &shared;
   config_ = &config;
   clock_ = &clock;
@@ -39,8 +41,6 @@ void EgressPort::find_path() {
 
 /// To be called when the port gets other features.
 void EgressPort::find_gates() {
-  // gPTP hands its messages over after the arrivals of an instant, and they go before them.
-  is_simple_ = !shaping_ && !extras_ && shared_ != nullptr && shared_->link_local == nullptr;
   only_gates_ = shaping_ && !extras_ && shaping_->has_only_gates() ? &shaping_->gates() : nullptr;
   only_merges_ = extras_ && extras_->merge && !shaping_ && link_.is_plain() && !extras_->expects_headers;
   open_until_ = {};
@@ -64,31 +64,28 @@ void EgressPort::prepare() {
 }
 
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
-  if (sole_sender_) [[unlikely]] simulation.uncount_event();   // there for the recorder only
-  if (event.kind() == wake_up) [[likely]]
+  if (event.kind() == wake_up) [[likely]] {
+    if (sole_sender_) [[unlikely]] simulation.uncount_event();   // there for the recorder only
     wake(simulation, event.time);
-  else
+  } else if (event.kind() == sim::Simulation::decide_now) {
+    simulation.uncount_event();
+    simulation.decide_later(id(), sim::Decision::egress);
+  } else {
     take_stored(simulation, event);
+  }
 }
 
 inline void EgressPort::wake(sim::Simulation& simulation, sim::TrueTime time) {
   if (time != wake_at_) return;  // an earlier wake-up took its place
   wake_at_ = sim::TrueTime::never();
-  if (!settling_ && simulation.instant_is_surely_complete()) [[likely]]
+  if (simulation.is_last()) [[likely]]
     settle_many(simulation);
   else
-    wake_among_others(simulation);
-}
-
-void EgressPort::wake_among_others(sim::Simulation& simulation) {
-  if (!settling_ && simulation.instant_is_complete())
-    settle_many(simulation);
-  else
-    settle_later(simulation);
+    decide_later(simulation);
 }
 
 void EgressPort::offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
-  settle_later(simulation);
+  decide_later(simulation);
   if (!has_arrival_) {
     has_arrival_ = true;
     arrival_ = {frame, rank};

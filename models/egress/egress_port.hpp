@@ -30,9 +30,9 @@ class alignas(64) EgressPort final : public sim::Component {
 
   EgressPort() = default;
 
-  /// Connects the port. `octet_time` is that of the link; `config`, `clock` and `incoming`, the link's other direction, outlive
+  /// Connects the port of a node (sim::Simulation::group). `octet_time` is that of the link; `config`, `clock` and `incoming`, the link's other direction, outlive
   /// the port.
-  void connect(sim::Simulation& simulation, Shared& shared, const PortConfig& config, const LocalClock& clock, sim::Duration octet_time,
+  void connect(sim::Simulation& simulation, sim::ComponentId node, Shared& shared, const PortConfig& config, const LocalClock& clock, sim::Duration octet_time,
                LinkEnd far_end, Link& incoming);
   /// To be called before the run, and after what is asked of the link before it.
   void prepare();
@@ -43,7 +43,9 @@ class alignas(64) EgressPort final : public sim::Component {
   const Link& link() const { return link_; }
   /// Every frame is put on the link by Link::transmit. After prepare().
   bool sends_plainly() const { return !extras_ && link_.is_plain() && !link_.checks(); }
-  /// One process alone will hand frames to this port, all of class `q`: where it does so. After prepare(). Preconditions: sends_plainly(), decides_by_itself(), the queue has no
+  /// Neither gates nor shapers nor other features: what starts next depends on queues and medium alone. After prepare().
+  bool has_queues_only() const { return !shaping_ && !extras_; }
+  /// One process alone will hand frames to this port, all of class `q`: where it does so. After prepare(). Preconditions: sends_plainly(), has_queues_only(), the queue has no
   /// limit, and neither request_gates() nor force_gate() will be called.
   SoleSender& serve_one(const sim::Simulation& simulation, TrafficClass q) {
     sole_sender_ = std::make_unique<SoleSender>(simulation, link_, q);
@@ -58,41 +60,15 @@ class alignas(64) EgressPort final : public sim::Component {
   /// `rank` (the ingress port in a bridge, the talker in a host), so that it does not matter which was handed over first.
   void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
 
-  /// The same as the last act of an event handler: spares the settling if nothing else happens at this instant. `record` is that of
-  /// the frame.
+  /// The same as the last act of an event handler: the port decides at once if nothing else happens to its node at this instant. `record` is that of the frame.
   void offer_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-    if (!simulation.instant_is_surely_complete()) [[unlikely]]
-      take_last(simulation, frame, record, rank);
+    if (!simulation.is_last()) [[unlikely]]
+      offer(simulation, frame, rank);
     else if (simulation.now() >= link_.free_at() && path_ == Path::plain) [[likely]]
       start(simulation, frame, record);
     else
       take_only(simulation, frame, record, rank);
   }
-
-  // For a bridge that knows when nothing more comes to it at an instant; what else happens at the instant does not concern a port that decides_by_itself().
-  /// It has neither gates nor shapers nor other features, so that it depends on what is in its queues and on its medium alone;
-  /// and nobody but the bridge hands frames to it, as gPTP would.
-  bool decides_by_itself() const { return is_simple_; }
-  /// offer() without settling: decide() follows at this instant. True if it is the first frame of this instant.
-  bool gather(FrameIndex frame, std::uint32_t rank) {
-    if (has_arrival_) {
-      more_arrivals_.push_back({frame, rank});
-      return false;
-    }
-    has_arrival_ = true;
-    arrival_ = {frame, rank};
-    return true;
-  }
-  void decide(sim::Simulation& simulation) { settle(simulation); }
-  /// Both, of the only frame of this instant.
-  void take_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-    if (path_ == Path::plain && simulation.now() >= link_.free_at() && !has_arrival_) [[likely]]
-      start(simulation, frame, record);
-    else
-      gather_and_decide(simulation, frame, rank);
-  }
-  /// offer_last() at an instant that is complete.
-  void take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
 
   /// The same for a frame of which only the header has come: it starts at once if this port cuts its class through, the
   /// link it comes from is as fast, the medium is free, no other frame may be selected now and none of its class waits.
@@ -102,13 +78,13 @@ class alignas(64) EgressPort final : public sim::Component {
   /// damaged. `from` is the link by which it comes. Precondition: expect_headers().
   void offer_header(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::TrueTime stored, Link& from) {
     extras_->headers.push_back({frame, rank, stored, &from});
-    settle_later(simulation);
+    decide_later(simulation);
   }
 
   /// The medium may have become free, or a class may have become eligible.
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
   /// All frames of this instant are here: selects, starts, queues.
-  void settle(sim::Simulation& simulation) override;
+  void decide(sim::Simulation& simulation) override;
 
   /// The clock has changed its rate or was stepped: what waits for a local time asks again.
   void clock_changed(sim::Simulation& simulation);
@@ -211,14 +187,14 @@ class alignas(64) EgressPort final : public sim::Component {
   [[gnu::noinline]] void settle_merging(sim::Simulation& simulation);
   void wait_or_cut(sim::Simulation& simulation, FrameIndex frame);
   void go_on_merging(sim::Simulation& simulation);
+  void take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
   void take_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
-  void gather_and_decide(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
   void find_path();
   void find_gates();
-  void settle_later(sim::Simulation& simulation) {
-    if (settling_) return;
-    settling_ = true;
-    simulation.settle_later(*this);
+  void decide_later(sim::Simulation& simulation) {
+    if (will_decide_) return;
+    will_decide_ = true;
+    simulation.decide_later(id(), sim::Decision::egress);
   }
   ClassSet candidates() const;
   First first_of(TrafficClass q) const;
@@ -229,7 +205,6 @@ class alignas(64) EgressPort final : public sim::Component {
   sim::TrueTime look_while_busy(sim::Simulation& simulation);
   sim::TrueTime when_to_look(sim::TrueTime now);
   void wake(sim::Simulation& simulation, sim::TrueTime time);
-  [[gnu::noinline]] void wake_among_others(sim::Simulation& simulation);
   void take_stored(sim::Simulation& simulation, const sim::Event& event);
   bool cut_through(sim::Simulation& simulation);
   void start_before_it_has_come(sim::Simulation& simulation, FrameIndex frame);
@@ -245,7 +220,6 @@ class alignas(64) EgressPort final : public sim::Component {
   void start(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void start(sim::Simulation& simulation, FrameIndex frame) { start(simulation, frame, shared_->traffic->frame(frame)); }
   [[gnu::noinline]] void start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  void take_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
   void start_highest(sim::Simulation& simulation);
   void admit_arrivals(sim::Simulation& simulation);
   void admit(sim::Simulation& simulation, FrameIndex frame);
@@ -284,9 +258,8 @@ class alignas(64) EgressPort final : public sim::Component {
   static sim::LocalTime eligible_of(const Frame& record) { return record.marked ? record.eligible : sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()); }
 
   // One cache line holds all that a frame touches at a port that is free.
-  bool settling_ = false;
+  bool will_decide_ = false;                 // it has asked to, at the end of this instant
   bool has_arrival_ = false;
-  bool is_simple_ = false;                   // neither extras nor shaping, and no gPTP in the network
   Path path_ = Path::plain;
   TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
   ClassSet ranked_ = every_class;            // those that do not share bandwidth: the most urgent one goes first

@@ -15,15 +15,7 @@ inline void EgressPort::pass_alone(sim::Simulation& simulation, FrameIndex frame
     start(simulation, frame, record);
 }
 
-/// offer_last() where the instant may not be complete, or the frame does not just start.
-void EgressPort::take_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-  if (!simulation.instant_is_complete()) {
-    offer(simulation, frame, rank);
-    return;
-  }
-  take_only(simulation, frame, record, rank);
-}
-
+/// offer_last() of the only frame of this instant, which does not just start.
 void EgressPort::take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
   if (simulation.now() < link_.free_at() || path_ == Path::general)
     take_among_others(simulation, frame, rank);
@@ -31,20 +23,14 @@ void EgressPort::take_only(sim::Simulation& simulation, FrameIndex frame, const 
     pass_alone(simulation, frame, record);
 }
 
-/// offer_last() at an instant that is complete, of a frame that does not come alone to a free medium.
 void EgressPort::take_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
   has_arrival_ = true;
   arrival_ = {frame, rank};
   settle_many(simulation);
 }
 
-void EgressPort::gather_and_decide(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
-  static_cast<void>(gather(frame, rank));
-  settle(simulation);
-}
-
-void EgressPort::settle(sim::Simulation& simulation) {
-  settling_ = false;
+void EgressPort::decide(sim::Simulation& simulation) {
+  will_decide_ = false;
   // The common case: one frame, nothing waits, the medium is free.
   if (has_arrival_ && path_ != Path::general && more_arrivals_.empty() && simulation.now() >= link_.free_at()) [[likely]] {
     has_arrival_ = false;

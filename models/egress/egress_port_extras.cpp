@@ -257,7 +257,7 @@ void EgressPort::ask_again(sim::Simulation& simulation) {
   promised_ = sim::TrueTime::never();
   open_until_ = {};
   if (extras_ && extras_->merge) extras_->merge->gates_changed();
-  if (!queues_.empty() || (extras_ && extras_->merge)) settle_later(simulation);
+  if (!queues_.empty() || (extras_ && extras_->merge)) decide_later(simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::gates_changed), id(), 0, 0});
 }

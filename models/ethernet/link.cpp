@@ -5,9 +5,10 @@
 
 namespace takt::models {
 
-void Link::connect(sim::ComponentId sender, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end) {
+void Link::connect(sim::ComponentId sender, sim::ComponentId node, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end) {
   TAKT_CHECK(octet_time.ps() > 0 && octet_time.ps() < (1 << 20), "an octet lasts between 1 ps and 1 us");
   source_ = sim::EventSource(sender);
+  order_for_sender_ = sim::Event::own_order_of(sim::Phase::arrival, node, sender);
   traffic_ = &traffic;
   static_assert(offsetof(Link, latency_) == 48, "what every frame touches lies in the first cache line of the sending port");
   octet_time_ps_ = static_cast<std::uint32_t>(octet_time.ps()) & 0x7FFF'FFFF;

@@ -66,8 +66,8 @@ class Link {
     Octets noticed_header{0};
   };
 
-  /// `sender` is the port that sends; `traffic` outlives the link.
-  void connect(sim::ComponentId sender, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end);
+  /// `sender` is the port that sends, of `node`; `traffic` outlives the link.
+  void connect(sim::ComponentId sender, sim::ComponentId node, Traffic& traffic, sim::Duration octet_time, LinkEnd far_end);
   bool is_connected() const { return traffic_ != nullptr; }
   const Reception& reception() const { return reception_; }
   /// Another node receives from now on. Precondition: the link is down, and what was on it has been lost.
@@ -148,7 +148,7 @@ class Link {
   /// An event for the sending port itself.
   void schedule_for_sender(sim::Simulation& simulation, sim::TrueTime time, sim::EventKind kind, std::uint64_t argument) {
     ++other_events_;
-    simulation.schedule(source_, time, sim::Phase::arrival, sender(), kind, argument);
+    simulation.schedule(source_, time, order_for_sender_, kind, argument);
   }
 
   // The receiving node.
@@ -212,6 +212,7 @@ class Link {
   LatencyLine* latency_ = nullptr;           // see fold_latency()
   Traffic* traffic_ = nullptr;
   Reception reception_;
+  std::uint64_t order_for_sender_ = 0;
   std::uint64_t other_events_ = 0;
   std::uint64_t frames_lost_ = 0;
   std::unique_ptr<LinkFault> fault_;

@@ -22,16 +22,16 @@ Cpu::Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::
   for (std::uint16_t core = 0; core < plan.cores; ++core) cores_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, core));
 }
 
-/// Before all others: what jobs send at their ends, egress ports are to see.
-void Cpu::ask_to_settle() {
-  if (!asked_) is_settling_ ? simulation_->settle_later(*this) : simulation_->settle_first(*this);
+/// Before the ports, which see what jobs send at their ends. What is submitted while it decides comes behind them.
+void Cpu::decide_later() {
+  if (!asked_) simulation_->decide_later(source_.id(), is_deciding_ ? sim::Decision::egress : sim::Decision::processor);
   asked_ = true;
 }
 
 void Cpu::submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work, sim::Duration besides) {
   TAKT_CHECK(thread < threads_.size() && released <= now(), "a job is for a thread, and not for later");
   arrived_.push_back({thread, user_id, rank, {&user, job, released, work, besides}});
-  ask_to_settle();
+  decide_later();
 }
 
 void Cpu::crash() {
@@ -79,9 +79,14 @@ void Cpu::keep_fair_time() {
 }
 
 void Cpu::handle(sim::Simulation& simulation, const sim::Event& event) {
+  if (event.kind() == sim::Simulation::decide_now) {
+    simulation.uncount_event();
+    simulation.decide_later(source_.id(), sim::Decision::processor);
+    return;
+  }
   Core& core = cores_[event.kind()];
   if (!core.timer.fired(simulation, source_, event)) return;
-  ask_to_settle();
+  decide_later();
 }
 
 /// When the instant is complete, so that it does not matter whether what else happens in it happened before.
@@ -113,7 +118,7 @@ void Cpu::begin(Thread& thread) {
 }
 
 void Cpu::take_in() {
-  // A user that is refused may submit at once: that is seen by the settling which follows.
+  // A user that is refused may submit at once: that is seen when it decides again.
   taken_in_.clear();
   std::swap(taken_in_, arrived_);
   std::stable_sort(taken_in_.begin(), taken_in_.end(), [](const Arrived& a, const Arrived& b) { return std::tie(a.thread, a.user_id, a.rank) < std::tie(b.thread, b.user_id, b.rank); });
@@ -222,8 +227,8 @@ void Cpu::arm() {
   }
 }
 
-void Cpu::settle(sim::Simulation&) {
-  is_settling_ = true;
+void Cpu::decide(sim::Simulation&) {
+  is_deciding_ = true;
   for (Core& core : cores_) charge(core);
   end_jobs();
   asked_ = false;
@@ -232,7 +237,7 @@ void Cpu::settle(sim::Simulation&) {
   for (Thread& thread : threads_) thread.core.reset();
   for (std::uint16_t core = 0; core < cores_.size(); ++core) dispatch(core, placed_[core]);
   arm();
-  is_settling_ = false;
+  is_deciding_ = false;
 }
 
 }  // namespace takt::models

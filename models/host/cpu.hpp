@@ -47,11 +47,12 @@ class Cpu final : public sim::Component {
   void crash();
   void set_observer(CpuObserver* observer) { observer_ = observer; }
 
+  sim::ComponentId id() const { return source_.id(); }
   const CpuPlan& plan() const { return *plan_; }
   sim::TrueTime now() const { return simulation_->now(); }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
-  void settle(sim::Simulation& simulation) override;
+  void decide(sim::Simulation& simulation) override;
 
  private:
   struct Job {
@@ -87,7 +88,7 @@ class Cpu final : public sim::Component {
     sim::TrueTime since;
     sim::Timer timer;                           // end of the job, or of a slice
   };
-  void ask_to_settle();
+  void decide_later();
   void charge(Core& core);
   void keep_fair_time();
   void take_in();
@@ -114,7 +115,7 @@ class Cpu final : public sim::Component {
   std::vector<std::optional<std::uint32_t>> placed_;   // by core
   CpuObserver* observer_ = nullptr;
   bool asked_ = false;
-  bool is_settling_ = false;
+  bool is_deciding_ = false;
 };
 
 }  // namespace takt::models

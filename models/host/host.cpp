@@ -49,7 +49,7 @@ const Host::Listener* Host::listener_of(StreamIndex stream) const {
 void Host::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
   if (attention_.is_needed() || (arrival.flags != 0 && is_in_doubt(arrival))) [[unlikely]]
-    receive_flagged(simulation, event, arrival);
+    receive(simulation, event.kind(), arrival);
   else
     take_in(simulation, event.kind(), arrival);
 }
@@ -67,28 +67,13 @@ inline void Host::take_in(sim::Simulation& simulation, sim::EventKind kind, Arri
     simulation.schedule(source_, through(simulation.now()), sim::Phase::arrival, id(), deliver_now, ArrivalArgument::pack(arrival.frame, arrival.port));
 }
 
-/// When nothing more comes to the host at this instant, whatever the last event was.
-inline void Host::release_if_last(sim::Simulation& simulation, const sim::Event& event) {
-  if (!holds_ || simulation.another_follows(event)) return;
-  holds_ = false;
-  take_gathered(simulation);
-}
-
-inline void Host::receive_of_several(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
+void Host::receive(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
   const auto needs_no_look = [](const Frame& frame) { return !frame.bad_fcs && !frame.link_local; };
-  const bool has_come = event.kind() != deliver_now && arrival.flags == 0 && !attention_.asks_links();
-  if (has_come && up_ && !tells_arrivals_ && !arrives_for_recorder_ && needs_no_look(traffic_->frame(arrival.frame))) [[likely]]
-    gather(simulation, {arrival.frame, arrival.port});
+  const bool is_sure = has_several_ways_ && kind != deliver_now && arrival.flags == 0 && !attention_.asks_links();
+  if (is_sure && up_ && !tells_arrivals_ && !arrives_for_recorder_ && needs_no_look(traffic_->frame(arrival.frame))) [[likely]]
+    gather_last(simulation, {arrival.frame, arrival.port});
   else
-    receive_closely(simulation, event.kind(), arrival);
-  release_if_last(simulation, event);
-}
-
-void Host::receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
-  if (has_several_ways_)
-    receive_of_several(simulation, event, arrival);
-  else
-    receive_closely(simulation, event.kind(), arrival);
+    receive_closely(simulation, kind, arrival);
 }
 
 void Host::receive_closely(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival) {
@@ -98,7 +83,7 @@ void Host::receive_closely(sim::Simulation& simulation, sim::EventKind kind, Arr
     if (!frame) return;
     arrival.frame = *frame;
     if (has_several_ways_ && !traffic_->frame(*frame).link_local) {
-      gather(simulation, {*frame, arrival.port});
+      gather_last(simulation, {*frame, arrival.port});
       return;
     }
   } else if (!up_) {
@@ -160,27 +145,24 @@ void Host::receive_internally(sim::Simulation& simulation, FrameIndex frame, std
   if (!up_)
     traffic_->drop(frame, DropReason::node_down, id(), simulation);
   else
-    gather_until_settled(simulation, {frame, port});
+    gather(simulation, {frame, port});
 }
 
-void Host::gather_until_settled(sim::Simulation& simulation, const Arrived& arrived) {
-  if (arrived_.empty()) simulation.settle_later(*this);
-  arrived_.push_back(arrived);
-}
-
-/// What comes by the host's own interfaces comes by its own events, one after the other.
 inline void Host::gather(sim::Simulation& simulation, const Arrived& arrived) {
-  if (!simulation.events_follow_targets()) {
-    gather_until_settled(simulation, arrived);
-    return;
-  }
-  holds_ = true;
+  if (arrived_.empty()) simulation.decide_later(id(), sim::Decision::reception);
   arrived_.push_back(arrived);
 }
 
-void Host::settle(sim::Simulation& simulation) { take_gathered(simulation); }
+/// The same as the last act of an event handler.
+inline void Host::gather_last(sim::Simulation& simulation, const Arrived& arrived) {
+  if (!simulation.is_last()) {
+    gather(simulation, arrived);
+  } else if (const std::optional<FrameIndex> frame = recover(simulation, arrived.frame, arrived.port)) {
+    pass_through_system(simulation, {*frame, arrived.port});
+  }
+}
 
-inline void Host::take_gathered(sim::Simulation& simulation) {
+void Host::decide(sim::Simulation& simulation) {
   const auto comes_before = [](const Arrived& a, const Arrived& b) { return a.port < b.port; };
   if (arrived_.size() > 2) [[unlikely]]
     sim::insertion_sort(arrived_, comes_before);

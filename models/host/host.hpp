@@ -17,7 +17,7 @@ namespace takt::models {
 class alignas(64) Host final : public sim::Component, public InternalReceiver, public CpuUser {
  public:
   /// `ports` are its network interfaces. Frames that come by several ways, by several interfaces or through the bridge of a station, may come
-  /// at one instant: the receive latency begins when the instant is complete, in the order of the ports, and lies in no event's time before. The latter also holds
+  /// at one instant: the receive latency begins when the node has handled its last event of the instant, in the order of the ports, and lies in no event's time before. The latter also holds
   /// where a thread of a processor takes them in.
   Host(sim::Simulation& simulation, Traffic& traffic, NodeIndex node, const OsLatency& latency, std::string_view path, std::span<EgressPort> ports,
        const LocalClock& clock, bool has_several_ways, bool has_stack_thread);
@@ -61,7 +61,7 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   }
 
   void handle(sim::Simulation& simulation, const sim::Event& event) override;
-  void settle(sim::Simulation& simulation) override;
+  void decide(sim::Simulation& simulation) override;
   void receive_internally(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port) override;
   void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) override;
   void prefetch(const sim::Event& event, Ahead ahead) const override;
@@ -83,15 +83,12 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   std::optional<FrameIndex> recover(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port);
   /// When what comes now is through the operating system. Jobs of a thread come one by one, so that their order is theirs.
   sim::TrueTime through(sim::TrueTime now) { return cpu_ != nullptr ? receive_.pass_strictly(now) : receive_.pass(now); }
-  void gather_until_settled(sim::Simulation& simulation, const Arrived& arrived);
   void gather(sim::Simulation& simulation, const Arrived& arrived);
-  void take_gathered(sim::Simulation& simulation);
-  void release_if_last(sim::Simulation& simulation, const sim::Event& event);
+  void gather_last(sim::Simulation& simulation, const Arrived& arrived);
   void pass_through_system(sim::Simulation& simulation, const Arrived& arrived);
   bool only_counts(const Frame& frame, const Listener* listener) const;
   void take_in(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
-  [[gnu::noinline]] void receive_flagged(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
-  void receive_of_several(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival);
+  [[gnu::noinline]] void receive(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   [[gnu::noinline]] void receive_closely(sim::Simulation& simulation, sim::EventKind kind, ArrivalArgument arrival);
   void deliver_noted(sim::Simulation& simulation, FrameIndex index, const Frame& frame, const Listener* listener);
   void deliver(sim::Simulation& simulation, FrameIndex index, const Frame& frame, const Listener* listener);
@@ -118,7 +115,6 @@ class alignas(64) Host final : public sim::Component, public InternalReceiver, p
   sim::Duration fixed_receive_;      // that latency
   ListenerRedundancy redundancy_;
   std::vector<Arrived> arrived_;     // at this instant, by several ways
-  bool holds_ = false;               // they are taken when the last event of this instant for this host is there, not when all is settled
   Cpu* cpu_ = nullptr;               // null: what comes takes no time of a processor
   std::uint32_t stack_thread_ = 0;
 };

@@ -45,7 +45,7 @@ bool HostOutput::hand_over_apart(sim::Simulation& simulation, std::span<const Ta
     ports[i] = port;
   }
   for (std::size_t i = 0; i < members.size(); ++i)
-    ports_[ports[i]].take_only(simulation, members[i].frame, traffic_->frame(members[i].frame), rank_of_own(rank));
+    ports_[ports[i]].offer_last(simulation, members[i].frame, traffic_->frame(members[i].frame), rank_of_own(rank));
   return true;
 }
 
@@ -60,7 +60,7 @@ void HostOutput::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
 void HostOutput::offer_last(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now) {
   if (!takes(simulation, frame, local_now)) return;
   if (const std::span<const TalkerRedundancy::Outgoing> members = members_of(frame); !members.empty()) {
-    if (!simulation.instant_is_surely_complete() || !hand_over_apart(simulation, members, rank)) hand_over(simulation, members, rank);
+    if (!simulation.is_last() || !hand_over_apart(simulation, members, rank)) hand_over(simulation, members, rank);
   } else {
     hand_over(simulation, frame, rank);
   }

@@ -21,7 +21,7 @@ class alignas(64) HostOutput {
   bool is_plain() const { return plain_; }
   EgressPort& port() const { return ports_[0]; }
 
-  /// The same as offer() as the last act of an event handler: spares the settling if nothing else happens at this instant.
+  /// The same as offer() as the last act of an event handler: ports decide at once if nothing else happens to the node at this instant.
   void offer_last(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::LocalTime local_now);
 
   /// Hands a frame to the interfaces that it leaves by, at the present instant. A frame with a launch time that has passed by

@@ -7,7 +7,6 @@
 namespace takt::models {
 namespace {
 
-constexpr sim::EventKind produce_now = 0;
 constexpr sim::EventKind transmit_now = 1;
 
 /// offset + period * count; never() if that is beyond all instants.
@@ -71,10 +70,6 @@ sim::LocalTime Talker::time_of_next() {
       schedule_);
 }
 
-inline void Talker::schedule_at(sim::Simulation& simulation, sim::TrueTime due) {
-  simulation.schedule(source_, std::max(due, simulation.now()), phase_, source_.id(), produce_now, generation_);
-}
-
 sim::TrueTime Talker::ask_clock() {
   if (fixed_step_ > sim::Duration()) steps_ = clock_->steps_from(last_, fixed_step_);
   return clock_->true_at(last_);
@@ -97,6 +92,7 @@ inline void Talker::schedule_next(sim::Simulation& simulation) {
 }
 
 void Talker::start(sim::Simulation& simulation) {
+  order_ = simulation.order_of(phase_, id(), id());
   // A clock that is ahead at the start shows times that never were: nothing was due then.
   const sim::LocalTime begin = clock_->local_at(simulation.now());
   const auto first = [begin](sim::Duration offset, sim::Duration period) {

@@ -1,6 +1,7 @@
 // A source of frames without protocol: periodic, random, in bursts or from a table of times.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "models/clock/local_clock.hpp"
@@ -55,10 +56,11 @@ class alignas(64) Talker final : public sim::Component, public CpuUser {
   void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) override;
 
  private:
+  static constexpr sim::EventKind produce_now = 0;
   /// One more frame has been due.
   void go_on(sim::Simulation& simulation);
   void schedule_next(sim::Simulation& simulation);
-  void schedule_at(sim::Simulation& simulation, sim::TrueTime due);
+  void schedule_at(sim::Simulation& simulation, sim::TrueTime due) { simulation.schedule(source_, std::max(due, simulation.now()), order_, produce_now, generation_); }
   /// Where the clock does not run as it did when the frame before was due, if there was one.
   [[gnu::noinline]] sim::TrueTime ask_clock();
   void hand_over(sim::Simulation& simulation, FrameIndex frame);
@@ -73,6 +75,7 @@ class alignas(64) Talker final : public sim::Component, public CpuUser {
   [[no_unique_address]] sim::EventSource source_;
   StreamIndex stream_;
   std::uint64_t generation_ = 0;   // of the event that produces the next frame
+  std::uint64_t order_ = 0;        // of such events (sim::Event)
   Octets payload_;
   sim::Phase phase_ = sim::Phase::timer;
   bool transmits_at_once_;

@@ -33,6 +33,7 @@ struct Release {
 class CpuRun final : public sim::Component, public models::CpuUser {
  public:
   CpuRun(const CpuPlan& plan, std::vector<Release> releases, std::uint64_t seed) : simulation_(seed), cpu_(simulation_, plan, models::NodeIndex{0}, "host"), source_(simulation_.add(*this)), releases_(std::move(releases)) {
+    simulation_.group(source_.id(), cpu_.id());
     ends.assign(releases_.size(), 0);
     for (std::size_t n = 0; n < releases_.size(); ++n) simulation_.schedule(source_, TrueTime::from_ps(releases_[n].at), sim::Phase::timer, source_.id(), 0, n);
   }

@@ -31,7 +31,8 @@ TEST(RunDigest, StarvedStreamsDifferByWhatWasProduced) {
 std::uint64_t digest_of_step(std::uint8_t transition, handshake::PublishedState to, handshake::Word word, std::int64_t at = 0) {
   sim::Simulation simulation(1);
   simulation.run(sim::TrueTime::from_ps(at));
-  Observations observations(simulation);
+  Observations observations;
+  observations.watch(simulation);
   ProgramMonitor monitor(simulation, observations, 0, handshake::Variant::robust, 2, {});
   handshake::Outputs outputs;
   outputs.change_count = 1;

@@ -68,15 +68,15 @@ TEST(Check, TheComponentIsTheTrueOneUnderTieShuffle) {
   EXPECT_TRUE(contains(text, "event 1 (kind 2 for component 1)")) << text;
 }
 
-TEST(Check, WhileSettlingTheTextHasTimeAndSeed) {
+TEST(Check, WhileDecidingTheTextHasTimeAndSeed) {
   Simulation simulation(5);
   std::vector<Entry> log;
   Recorder a(simulation, log);
-  a.on_event = [&a](Simulation& s, const Event&) { s.settle_later(a); };
-  a.on_settle = [](Simulation&) { TAKT_CHECK(false, "cannot settle"); };
+  a.on_event = [&a](Simulation& s, const Event&) { s.decide_later(a.id(), Decision::egress); };
+  a.on_decide = [](Simulation&) { TAKT_CHECK(false, "cannot decide"); };
   simulation.schedule(a.source, at_ps(123), Phase::timer, a.id(), 1, 0);
   const std::string text = message_of([&] { simulation.run(at_ps(9'000)); });
-  EXPECT_TRUE(contains(text, "cannot settle")) << text;
+  EXPECT_TRUE(contains(text, "cannot decide")) << text;
   EXPECT_TRUE(contains(text, "at 123 ps, event 1")) << text;
   EXPECT_TRUE(contains(text, "seed 5")) << text;
 }

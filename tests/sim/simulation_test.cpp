@@ -27,7 +27,7 @@ class SimulationTest : public testing::Test {
 };
 
 Entry event(std::int64_t time, const Recorder& who, EventKind kind) { return {time, who.id().index, kind, 0, false}; }
-Entry settled(std::int64_t time, const Recorder& who) { return {time, who.id().index, 0, 0, true}; }
+Entry decided(std::int64_t time, const Recorder& who) { return {time, who.id().index, 0, 0, true}; }
 using Log = std::vector<Entry>;
 
 TEST_F(SimulationTest, IdsAreDense) {
@@ -35,7 +35,8 @@ TEST_F(SimulationTest, IdsAreDense) {
   EXPECT_EQ(b.id().index, 1u);
 }
 
-TEST_F(SimulationTest, PhasesThenTargetsThenSerials) {
+// Control before all nodes; then node by node, the phases of each, and serials.
+TEST_F(SimulationTest, ControlThenNodesThenPhasesThenSerials) {
   schedule(5, Phase::timer, a, 1);
   schedule(5, Phase::arrival, b, 2);
   schedule(5, Phase::arrival, a, 3);
@@ -43,7 +44,7 @@ TEST_F(SimulationTest, PhasesThenTargetsThenSerials) {
   schedule(5, Phase::control, b, 5);
   schedule(4, Phase::timer, b, 6);
   EXPECT_TRUE(simulation.run(at_ps(5)));
-  EXPECT_EQ(log, (Log{event(4, b, 6), event(5, b, 5), event(5, a, 3), event(5, a, 4), event(5, b, 2), event(5, a, 1)}));
+  EXPECT_EQ(log, (Log{event(4, b, 6), event(5, b, 5), event(5, a, 3), event(5, a, 4), event(5, a, 1), event(5, b, 2)}));
 }
 
 TEST_F(SimulationTest, RunsUpToAndIncludingUntil) {
@@ -84,7 +85,7 @@ TEST_F(SimulationTest, SteppingChangesNothing) {
     EventSource source(ComponentId{50});
     c.on_event = [&c](Simulation& s, const Event& e) {
       if (e.kind() < 50) s.schedule(c.source, e.time + Duration::from_ps(e.kind() % 3), Phase::timer, c.id(), static_cast<EventKind>(e.kind() + 1), 0);
-      if (e.kind() % 2 == 0) s.settle_later(c);
+      if (e.kind() % 2 == 0) s.decide_later(c.id(), Decision::egress);
     };
     own.schedule(source, at_ps(0), Phase::timer, c.id(), 0, 0);
     if (step == 0)
@@ -98,72 +99,115 @@ TEST_F(SimulationTest, SteppingChangesNothing) {
   }
 }
 
-// `a` asks at 10 in the control phase; the events at 10 that exist already, in all phases, and those that are scheduled for 10
-// while the instant goes on, are all handled before it settles.
-TEST_F(SimulationTest, SettlesAfterAllEventsOfTheInstant) {
+// A component of another node, and one of the same: their events are one run, those of the node that is last come last.
+TEST_F(SimulationTest, TheEventsOfANodeAreOneRun) {
+  Recorder part(simulation, log);
+  simulation.group(part.id(), a.id());
+  schedule(10, Phase::timer, a, 1);
+  schedule(10, Phase::arrival, b, 2);
+  simulation.schedule(part.source, at_ps(10), Phase::arrival, part.id(), 3, 0);
+  simulation.schedule(part.source, at_ps(10), Phase::timer, part.id(), 4, 0);
+  EXPECT_TRUE(simulation.run(at_ps(20)));
+  EXPECT_EQ(log, (Log{event(10, part, 3), event(10, a, 1), event(10, part, 4), event(10, b, 2)}));
+}
+
+// `a` is asked for at 10 in the control phase; the events of its node at 10 that exist already, in all phases, and those that are scheduled for 10
+// while the instant goes on, are all handled before it decides. Then comes the other node.
+TEST_F(SimulationTest, DecidesAfterAllEventsOfTheNodeAtTheInstant) {
   a.on_event = [this](Simulation& s, const Event& e) {
-    if (e.kind() == 1) s.settle_later(a);
-    if (e.kind() == 3) s.schedule(a.source, s.now(), Phase::control, b.id(), 4, 0);
+    if (e.kind() == 1) s.decide_later(a.id(), Decision::egress);
+    if (e.kind() == 3) s.schedule(a.source, s.now(), Phase::arrival, a.id(), 4, 0);
   };
   schedule(10, Phase::control, a, 1);
   schedule(10, Phase::arrival, b, 2);
   schedule(10, Phase::timer, a, 3);
   schedule(11, Phase::control, b, 5);
   EXPECT_TRUE(simulation.run(at_ps(20)));
-  EXPECT_EQ(log, (Log{event(10, a, 1), event(10, b, 2), event(10, a, 3), event(10, b, 4), settled(10, a), event(11, b, 5)}));
+  EXPECT_EQ(log, (Log{event(10, a, 1), event(10, a, 3), event(10, a, 4), decided(10, a), event(10, b, 2), event(11, b, 5)}));
+  EXPECT_EQ(simulation.event_count(), 5u);
 }
 
-// With something to come later the instant is surely complete; with nothing to come, or somebody who waits, one has to ask.
-TEST_F(SimulationTest, AnInstantIsSurelyCompleteWhereTheNextEventIsKnown) {
-  std::vector<std::pair<bool, bool>> seen;
+// The last event of the node: not where another one follows, whatever its phase, nor where a component is to decide, nor after an event has been scheduled for now. Events of other nodes
+// do not count. With nothing to come it is not known.
+TEST_F(SimulationTest, KnowsTheLastEventOfANode) {
+  std::vector<bool> seen;
   a.on_event = [&](Simulation& s, const Event& e) {
-    if (e.kind() == 3) s.settle_later(b);
-    seen.push_back({s.instant_is_surely_complete(), s.instant_is_complete()});
+    if (e.kind() == 3) s.decide_later(a.id(), Decision::egress);
+    if (e.kind() == 4) s.schedule(a.source, s.now(), Phase::timer, a.id(), 5, 0);
+    seen.push_back(s.is_last());
   };
   schedule(10, Phase::arrival, a, 1);
   schedule(10, Phase::timer, a, 2);
+  schedule(10, Phase::arrival, b, 9);
   schedule(11, Phase::arrival, a, 3);
   schedule(12, Phase::arrival, a, 4);
+  schedule(13, Phase::arrival, a, 6);
   EXPECT_TRUE(simulation.run(at_ps(20)));
-  EXPECT_EQ(seen, (std::vector<std::pair<bool, bool>>{{false, false}, {true, true}, {false, false}, {false, true}}));
+  EXPECT_EQ(seen, (std::vector<bool>{false, true, false, false, true, false}));
 }
 
-TEST_F(SimulationTest, SettlesAtTheEndOfARunAndBeforeTheEventLimit) {
-  a.on_event = [this](Simulation& s, const Event&) { s.settle_later(a); };
+TEST_F(SimulationTest, DecidesAtTheEndOfARunAndBeforeTheEventLimit) {
+  a.on_event = [this](Simulation& s, const Event&) { s.decide_later(a.id(), Decision::egress); };
   schedule(10, Phase::arrival, a, 1);
   schedule(20, Phase::arrival, a, 2);
   EXPECT_FALSE(simulation.run(at_ps(20), 1));
-  EXPECT_EQ(log, (Log{event(10, a, 1), settled(10, a)}));
+  EXPECT_EQ(log, (Log{event(10, a, 1), decided(10, a)}));
   EXPECT_TRUE(simulation.run(at_ps(20)));
-  EXPECT_EQ(log, (Log{event(10, a, 1), settled(10, a), event(20, a, 2), settled(20, a)}));
+  EXPECT_EQ(log, (Log{event(10, a, 1), decided(10, a), event(20, a, 2), decided(20, a)}));
 }
 
-// What settling schedules for the same instant still happens in it, and whoever asks then settles again.
-TEST_F(SimulationTest, SettlingMayContinueTheInstant) {
-  a.on_event = [this](Simulation& s, const Event&) { s.settle_later(a); };
-  a.on_settle = [this](Simulation& s) {
+// What a decision schedules for the same instant still happens in it, and whoever asks then decides again.
+TEST_F(SimulationTest, ADecisionMayContinueTheInstant) {
+  a.on_event = [this](Simulation& s, const Event&) { s.decide_later(a.id(), Decision::egress); };
+  a.on_decide = [this](Simulation& s) {
     if (s.event_count() == 1) s.schedule(a.source, s.now(), Phase::arrival, a.id(), 2, 0);
   };
   schedule(10, Phase::timer, a, 1);
   EXPECT_TRUE(simulation.run(at_ps(20)));
-  EXPECT_EQ(log, (Log{event(10, a, 1), settled(10, a), event(10, a, 2), settled(10, a)}));
+  EXPECT_EQ(log, (Log{event(10, a, 1), decided(10, a), event(10, a, 2), decided(10, a)}));
 }
 
-TEST_F(SimulationTest, SettlingMayMakeAnotherSettle) {
-  a.on_event = [this](Simulation& s, const Event&) { s.settle_later(a); };
-  a.on_settle = [this](Simulation& s) { s.settle_later(b); };
+// Whatever asked first, ingress, processor, reception and egress decide in this order; what asks meanwhile comes behind those that have decided.
+TEST_F(SimulationTest, DecisionsOfANodeHaveAnOrder) {
+  Recorder parts[4] = {{simulation, log}, {simulation, log}, {simulation, log}, {simulation, log}};
+  for (const Recorder& part : parts) simulation.group(part.id(), a.id());
+  a.on_event = [&](Simulation& s, const Event&) {
+    for (const std::size_t i : {2, 0, 3}) s.decide_later(parts[i].id(), static_cast<Decision>(i));
+  };
+  parts[0].on_decide = [&](Simulation& s) { s.decide_later(parts[1].id(), Decision::processor); };
+  parts[3].on_decide = [&](Simulation& s) {
+    if (log.size() < 6) s.decide_later(parts[0].id(), Decision::ingress);
+  };
   schedule(10, Phase::timer, a, 1);
-  schedule(12, Phase::timer, b, 2);
   EXPECT_TRUE(simulation.run(at_ps(20)));
-  EXPECT_EQ(log, (Log{event(10, a, 1), settled(10, a), settled(10, b), event(12, b, 2)}));
+  EXPECT_EQ(log, (Log{event(10, a, 1), decided(10, parts[0]), decided(10, parts[1]), decided(10, parts[2]), decided(10, parts[3]), decided(10, parts[0]), decided(10, parts[1])}));
 }
 
-TEST_F(SimulationTest, SettlesWhatAskedBeforeTheRun) {
-  simulation.settle_later(a);
+TEST_F(SimulationTest, DecidesWhatWasAskedForBeforeTheRun) {
+  simulation.decide_later(b.id(), Decision::egress);
   schedule(0, Phase::timer, b, 1);
   schedule(1, Phase::timer, b, 2);
   EXPECT_TRUE(simulation.run(at_ps(3)));
-  EXPECT_EQ(log, (Log{event(0, b, 1), settled(0, a), event(1, b, 2)}));
+  EXPECT_EQ(log, (Log{event(0, b, 1), decided(0, b), event(1, b, 2)}));
+}
+
+// The law that all of this rests on.
+TEST_F(SimulationTest, NothingOfANodeReachesAnotherAtTheSameInstant) {
+  a.on_event = [this](Simulation& s, const Event&) { s.schedule(a.source, s.now(), Phase::timer, b.id(), 2, 0); };
+  schedule(10, Phase::arrival, a, 1);
+  EXPECT_THROW(simulation.run(at_ps(20)), InvariantBroken);
+}
+
+TEST_F(SimulationTest, ControlReachesAllNodesAndAllReachJudgement) {
+  Recorder monitor(simulation, log);
+  a.on_event = [&](Simulation& s, const Event& e) {
+    if (e.kind() == 1) s.schedule(a.source, s.now(), Phase::timer, b.id(), 2, 0);
+    if (e.kind() == 3) s.schedule(monitor.source, s.now(), Phase::judgement, monitor.id(), 4, 0);
+  };
+  schedule(10, Phase::control, a, 1);
+  schedule(10, Phase::arrival, a, 3);
+  EXPECT_TRUE(simulation.run(at_ps(20)));
+  EXPECT_EQ(log, (Log{event(10, a, 1), event(10, a, 3), event(10, b, 2), event(10, monitor, 4)}));
 }
 
 TEST_F(SimulationTest, TheOrderDoesNotDependOnWhenEventsWereScheduled) {

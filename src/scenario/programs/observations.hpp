@@ -63,14 +63,18 @@ struct ProcessData {
 using Observation = std::variant<observed::Step, observed::CallBegins, observed::Call, observed::Crash, observed::Gone, observed::Back, observed::Leave, observed::Silence, observed::ProcessData>;
 
 /// Shared by the monitors of a run. No node sees what another one does at the same instant, but monitors compare nodes. So they see an
-/// instant as a whole: first what participants did, in the order of events; then which node each role has got.
+/// instant as a whole: first what participants did, in the order of phases and of the components that handled the events; then which node each role has got.
 class Observations final : public sim::Component {
  public:
-  explicit Observations(sim::Simulation& simulation) : simulation_(&simulation) {}
+  /// Before anything happens.
+  void watch(sim::Simulation& simulation) {
+    simulation_ = &simulation;
+    source_ = sim::EventSource(simulation.add(*this));
+  }
 
   void add(ProgramMonitor& monitor, const Observation& what) {
     ask();
-    seen_.push_back({&monitor, what});
+    seen_.push_back({&monitor, {simulation_->phase(), simulation_->target()}, what});
   }
   /// The master has given the role to a node, or taken it away.
   void add_binding(RoleMonitor& monitor, std::size_t role, const handshake::Binding& binding) {
@@ -78,17 +82,17 @@ class Observations final : public sim::Component {
     bindings_.push_back({&monitor, role, binding});
   }
 
-  void handle(sim::Simulation&, const sim::Event&) override {}
   /// The instant is over.
-  void settle(sim::Simulation& simulation) override;
+  void handle(sim::Simulation& simulation, const sim::Event& event) override;
 
  private:
   void ask() {
-    if (seen_.empty() && bindings_.empty()) simulation_->judge_later(*this);
+    if (seen_.empty() && bindings_.empty()) simulation_->schedule(source_, simulation_->now(), sim::Phase::judgement, source_.id(), 0, 0);
   }
 
   struct Seen {
     ProgramMonitor* monitor;
+    std::pair<sim::Phase, sim::ComponentId> when;
     Observation what;
   };
   struct Bound {
@@ -96,7 +100,8 @@ class Observations final : public sim::Component {
     std::size_t role;
     handshake::Binding binding;
   };
-  sim::Simulation* simulation_;
+  sim::Simulation* simulation_ = nullptr;
+  sim::EventSource source_;
   std::vector<Seen> seen_;
   std::vector<Bound> bindings_;
 };

@@ -112,7 +112,7 @@ class Run::Script final : public sim::Component {
 };
 
 Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle, models::Share share)
-    : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan, share), observations_(simulation_) {
+    : resolved_(&resolved), instants_(account_instants(resolved)), simulation_(resolved.scenario.seed), network_(simulation_, resolved.plan, share) {
   simulation_.set_tie_shuffle(tie_shuffle);
   for (std::uint32_t i = 0; i < resolved.programs.size(); ++i) add_program(i, resolved.programs[i]);
   nest_programs();
@@ -129,6 +129,7 @@ Run::Run(const Resolved& resolved, std::uint64_t tie_shuffle, models::Share shar
     cpu_monitors_.push_back(cpu != nullptr ? std::make_unique<CpuMonitor>(*cpu, instants_) : nullptr);
   }
   keep_accounts(resolved, network_);
+  observations_.watch(simulation_);
   network_.start();
 }
 

@@ -44,7 +44,10 @@ CpuThreadPlan fair(std::uint32_t weight = 1024, std::optional<std::uint16_t> cor
 /// A processor whose jobs are numbered in the order in which they are asked for here.
 class Machine final : public sim::Component, public CpuUser, public CpuObserver {
  public:
-  Machine(CpuPlan p) : plan(std::move(p)), cpu(simulation, plan, NodeIndex{0}, "host"), source_(simulation.add(*this)) { cpu.set_observer(this); }
+  Machine(CpuPlan p) : plan(std::move(p)), cpu(simulation, plan, NodeIndex{0}, "host"), source_(simulation.add(*this)) {
+    simulation.group(source_.id(), cpu.id());
+    cpu.set_observer(this);
+  }
   void submit(std::uint32_t thread, Duration when, std::optional<Duration> work = {}) {
     submissions_.push_back({thread, work});
     simulation.schedule(source_, at(when), sim::Phase::timer, source_.id(), 0, submissions_.size() - 1);

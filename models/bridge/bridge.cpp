@@ -8,28 +8,32 @@ constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);
 constexpr auto stored_for_host = static_cast<sim::EventKind>(static_cast<unsigned>(NodeEvent::first_free) + 1);
 }
 
-/// Nothing else comes to the bridge at this instant, as a rule: then the port decides at once. The only call is a tail call, so no registers are saved.
+template <bool is_last>
 inline void Bridge::route_to(sim::Simulation& simulation, FrameIndex index, const Frame& frame, std::uint16_t from, std::uint32_t port) {
-  if (port != FilteringDatabase::not_at_once && port != from && simulation.is_last()) [[likely]]
-    ports_[port].offer_last(simulation, index, frame, from);
+  if (port == FilteringDatabase::not_at_once || port == from) [[unlikely]]
+    forward(simulation, index, from, nullptr);
+  else if constexpr (is_last)
+    ports_[port].offer_only(simulation, index, frame, from);
   else
-    route_among_others(simulation, index, from, port);
+    ports_[port].offer_last(simulation, index, frame, from);
 }
 
-/// A frame that has passed whatever comes before the filtering database. Of one that is on its stream's route the port is remembered.
+/// A frame that has passed whatever comes before the filtering database. Of one that is on its stream's route the port is remembered. All calls are
+/// tail calls, so that no registers are saved.
+template <bool is_last>
 inline void Bridge::route(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from) {
   if (routes_ == nullptr || !frame.on_route || frame.hop >= Routes::most_hops) {
-    route_to(simulation, index, frame, from, filtering_database_.port_at_once(frame.vlan, frame.destination));
+    route_to<is_last>(simulation, index, frame, from, filtering_database_.port_at_once(frame.vlan, frame.destination));
   } else if (const std::uint32_t port = routes_->at(frame) - first_port_; port < port_count_) [[likely]] {
     ++frame.hop;
-    route_to(simulation, index, frame, from, port);
+    route_to<is_last>(simulation, index, frame, from, port);
   } else {
     route_looked_up(simulation, index, frame, from);
   }
 }
 
 void Bridge::route_looked_up(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from) {
-  route_to(simulation, index, frame, from, look_up(frame));
+  route_to<false>(simulation, index, frame, from, look_up(frame));
 }
 
 std::uint32_t Bridge::look_up(Frame& frame) {
@@ -40,26 +44,19 @@ std::uint32_t Bridge::look_up(Frame& frame) {
   return is_one ? entry.port() : FilteringDatabase::not_at_once;
 }
 
-void Bridge::route_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::uint32_t port) {
-  if (port != FilteringDatabase::not_at_once && port != from)
-    ports_[port].offer(simulation, frame, from);
-  else
-    forward(simulation, frame, from, nullptr);
-}
-
 void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
   if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
     handle_internal(simulation, event, arrival);
   else if (arrival.flags == 0 && !attention_.is_needed()) [[likely]]
-    route(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
+    route<false>(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
   else if (only_polices_ && simulation.is_last() && !attention_.asks_links())
     pass_chain(simulation, arrival);
   else
     receive(simulation, arrival);
 }
 
-/// Most frames through a bridge with a chain: sound, nothing else comes at this instant, and they stay as they are. If not, nothing has changed, and receive() follows.
+/// Most frames through a bridge with a chain, at the last event of the instant: sound, and they stay as they are. If not, nothing has changed, and receive() follows.
 void Bridge::pass_chain(sim::Simulation& simulation, ArrivalArgument arrival) {
   Frame& frame = traffic_->frame(arrival.frame);
   const bool is_uncertain = arrival.flags != 0 && ((arrival.flags & ArrivalArgument::header_only) != 0 || !ports_[arrival.port].incoming().surely_delivers());
@@ -71,7 +68,7 @@ void Bridge::pass_chain(sim::Simulation& simulation, ArrivalArgument arrival) {
   if (!chain_->passes_as_it_is(frame, arrival.port, simulation.now() - forwarding_delay_)) [[unlikely]]
     receive(simulation, arrival);
   else
-    route(simulation, arrival.frame, frame, arrival.port);
+    route<true>(simulation, arrival.frame, frame, arrival.port);
 }
 
 /// A frame that its link may have lost, or a bridge that does more than forward.
@@ -84,7 +81,7 @@ void Bridge::receive(sim::Simulation& simulation, ArrivalArgument arrival) {
         {simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value,
          ArrivalDetail{arrival.port, link.sender(), (arrival.flags & ArrivalArgument::header_only) != 0}.pack()});
   if (arrival.flags == 0 && !attention_.is_demanded()) {   // a plain bridge, to which the arrival of a frame that was cut has been announced
-    route(simulation, frame, traffic_->frame(frame), arrival.port);
+    route<false>(simulation, frame, traffic_->frame(frame), arrival.port);
   } else if ((arrival.flags & ArrivalArgument::header_only) == 0) {
     accept(simulation, frame, arrival.port, nullptr);
   } else {
@@ -155,7 +152,7 @@ void Bridge::decide(sim::Simulation& simulation) {
 void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header) {
   if (jitter_ == nullptr) {
     if (frames.size() == 1 && header == nullptr && !untags_ && !traffic_->frame(frames[0]).link_local) [[likely]] {
-      route(simulation, frames[0], traffic_->frame(frames[0]), from);
+      route<false>(simulation, frames[0], traffic_->frame(frames[0]), from);
       return;
     }
     for (const FrameIndex frame : frames) forward(simulation, frame, from, header);

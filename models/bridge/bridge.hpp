@@ -94,9 +94,11 @@ class alignas(64) Bridge final : public sim::Component {
   };
   std::uint32_t look_up(Frame& frame);
   [[gnu::noinline]] void route_looked_up(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from);
+  /// `is_last`: Simulation::is_last() has said so.
+  template <bool is_last>
   void route_to(sim::Simulation& simulation, FrameIndex index, const Frame& frame, std::uint16_t from, std::uint32_t port);
+  template <bool is_last>
   void route(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from);
-  [[gnu::noinline]] void route_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, std::uint32_t port);
   [[gnu::noinline]] void pass_chain(sim::Simulation& simulation, ArrivalArgument arrival);
   [[gnu::noinline]] void receive(sim::Simulation& simulation, ArrivalArgument arrival);
   [[gnu::noinline]] void leave(sim::Simulation& simulation, sim::EventKind kind, std::uint16_t from);
@@ -119,7 +121,7 @@ class alignas(64) Bridge final : public sim::Component {
   void find_whether_it_only_polices() { only_polices_ = chain_ != nullptr && jitter_ == nullptr && !untags_ && !tells_arrivals_; }
   void pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header);
   // `rank` is the number of the port by which the frame came, or greater than that of any port.
-  void forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header);
+  [[gnu::noinline]] void forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, const Header* header);
   void forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::span<const std::uint16_t> egress, const Header* header);
   void hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::uint16_t port, const Header* header);
   void hand_to_host(sim::Simulation& simulation, FrameIndex frame, std::uint16_t from, const Header* header);

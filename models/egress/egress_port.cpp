@@ -32,24 +32,22 @@ void EgressPort::connect(sim::Simulation& simulation, sim::ComponentId node, Sha
   if (config.cut_through != 0) link_.check_arrivals();
 }
 
-void EgressPort::find_path() {
-  if (only_merges_ && queues_.empty() && !extras_->merge->rest())
-    path_ = Path::merging;
-  else
-    path_ = !queues_.empty() || extras_ ? Path::general : !shaping_ ? Path::plain : only_gates_ != nullptr ? Path::gated : shaping_->limits_sdu() ? Path::general : Path::shaped;
+/// To be called when frames begin or cease to wait.
+void EgressPort::note_waiting() {
+  const bool selects = extras_ && (!only_merges_ || extras_->merge->rest());
+  starts_alone_ = queues_.empty() && !selects && !(shaping_ && shaping_->limits_sdu());
+  starts_at_once_ = starts_alone_ && has_queues_only();
 }
 
 /// To be called when the port gets other features.
-void EgressPort::find_gates() {
-  only_gates_ = shaping_ && !extras_ && shaping_->has_only_gates() ? &shaping_->gates() : nullptr;
+void EgressPort::note_features() {
   only_merges_ = extras_ && extras_->merge && !shaping_ && link_.is_plain() && !extras_->expects_headers;
-  open_until_ = {};
-  find_path();
+  note_waiting();
 }
 
 PortShaping& EgressPort::make_shaping() {
   if (!shaping_) shaping_ = std::make_unique<PortShaping>(config_->shaping, *clock_, octet_time());
-  find_gates();
+  note_features();
   return *shaping_;
 }
 
@@ -60,7 +58,7 @@ EgressPort::Extras& EgressPort::make_extras() {
 
 void EgressPort::prepare() {
   if (!link_.is_plain()) make_extras();
-  find_gates();
+  note_features();
 }
 
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
@@ -79,105 +77,185 @@ inline void EgressPort::wake(sim::Simulation& simulation, sim::TrueTime time) {
   if (time != wake_at_) return;  // an earlier wake-up took its place
   wake_at_ = sim::TrueTime::never();
   if (simulation.is_last()) [[likely]]
-    settle_many(simulation);
+    decide_now(simulation);
   else
     decide_later(simulation);
 }
 
+void EgressPort::decide_later(sim::Simulation& simulation) {
+  if (will_decide_) return;
+  will_decide_ = true;
+  simulation.decide_later(id(), sim::Decision::egress);
+}
+
 void EgressPort::offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank) {
-  decide_later(simulation);
   if (!has_arrival_) {
     has_arrival_ = true;
     arrival_ = {frame, rank};
   } else {
     more_arrivals_.push_back({frame, rank});
   }
+  decide_later(simulation);
 }
 
-/// One frame has come to a port with gates or shapers where nothing waits.
-void EgressPort::settle_one(sim::Simulation& simulation, FrameIndex frame) {
-  has_arrival_ = false;
-  if (!shaping_->limits_sdu() || passes_max_sdu(simulation, frame)) {
-    if (simulation.now() >= link_.free_at()) {
-      pass_shaping(simulation, frame, shared_->traffic->frame(frame));
-    } else {
-      shaping_->frame_waits(simulation.now(), class_of(frame));
-      admit(simulation, frame);
-      if (!queues_.empty()) wake_at(simulation, link_.free_at());
+inline void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
+  const Frame& record = shared_->traffic->frame(frame);
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  DropReason reason{};
+  const bool has_room = queues_.has_room(q, record.length, config_->queue_limits[q], reason);
+  if (!has_room || simulation.trace() != nullptr || (shaping_ && shaping_->is_timed(q))) [[unlikely]]
+    admit_closely(simulation, frame, record, q);
+  else
+    queues_.push(q, frame, record.length, shared_->entries);
+}
+
+/// A frame that comes alone to the free medium while nothing waits.
+inline void EgressPort::start_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  if (shaping_) {
+    if (!shaping_->starts_at_once(simulation.now(), q, record)) [[unlikely]] {
+      ask_shaping(simulation, frame, record);
+      return;
     }
+    sending_ = q;
   }
-  find_path();
+  if (extras_)
+    start_merging(simulation, frame, record, q);
+  else
+    start(simulation, frame, record);
 }
 
-/// One frame has come to a busy medium at a port that has gates at most: whatever waits, it waits, too.
-void EgressPort::wait_for_medium(sim::Simulation& simulation, FrameIndex frame) {
+/// Of the only frame of this instant, which does not just start.
+void EgressPort::offer_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
+  if (simulation.now() >= link_.free_at() && starts_alone_) {
+    start_alone(simulation, frame, record);
+    return;
+  }
+  has_arrival_ = true;
+  arrival_ = {frame, rank};
+  decide_now(simulation);
+}
+
+void EgressPort::decide(sim::Simulation& simulation) {
+  will_decide_ = false;
+  decide_now(simulation);
+}
+
+/// Which case it is. Each is a tail call, so that the common ones save no registers.
+void EgressPort::decide_now(sim::Simulation& simulation) {
+  if (!more_arrivals_.empty() || (extras_ && !only_merges_)) [[unlikely]] {
+    select_among_all(simulation);
+  } else if (!has_arrival_) {
+    !shaping_ || is_one_class(queues_.waiting()) ? start_waiting(simulation) : select_among_all(simulation);
+  } else if (simulation.now() < link_.free_at()) {
+    queue_arrival(simulation);
+  } else if (starts_alone_) {
+    has_arrival_ = false;
+    start_alone(simulation, arrival_.frame, shared_->traffic->frame(arrival_.frame));
+  } else if (simulation.now() < promised_ && promised_ != sim::TrueTime::never() && simulation.trace() == nullptr) {
+    queue_behind_promised(simulation);
+  } else {
+    select_among_all(simulation);
+  }
+}
+
+/// The same where the cheap tests say nothing.
+void EgressPort::ask_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
+  const sim::TrueTime ready = shaping_->start_exactly(simulation.now(), q, {record.length, eligible_of(record)});
+  if (ready == simulation.now()) [[likely]] {
+    sending_ = q;
+    start(simulation, frame, record);
+    return;
+  }
+  admit(simulation, frame);
+  note_waiting();
+  promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
+  if (queues_.empty()) return;   // a frame that found no room is no more, and nobody waits
+  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
+  wake_at(simulation, ready);
+}
+
+/// One frame has come to a busy medium: whatever waits, it waits, too.
+void EgressPort::queue_arrival(sim::Simulation& simulation) {
   has_arrival_ = false;
   promised_ = sim::TrueTime::never();
-  path_ = Path::general;
-  admit(simulation, frame);
+  if (shaping_) {
+    if (shaping_->limits_sdu() && !passes_max_sdu(simulation, arrival_.frame)) return;
+    shaping_->frame_waits(simulation.now(), class_of(arrival_.frame));
+  }
+  admit(simulation, arrival_.frame);
   has_new_head_ = false;   // the heads are looked at when the medium is free
-  if (!queues_.empty()) wake_at(simulation, link_.free_at());
+  wait_for_medium(simulation);
 }
 
-/// One frame has come to a free medium at a port with gates and nothing else, where others wait: it waits behind them if they are of its class, and have been promised when they may start.
-void EgressPort::wait_for_gate(sim::Simulation& simulation, FrameIndex frame) {
-  const bool is_promised = simulation.now() < promised_ && promised_ != sim::TrueTime::never() && queues_.waiting() == only(class_of(frame));
-  if (is_promised && simulation.trace() == nullptr) {
+/// One frame has come to a free medium, where others wait for a gate that has promised when the first of them may start: it waits behind them if they are of its class.
+void EgressPort::queue_behind_promised(sim::Simulation& simulation) {
+  const TrafficClass q = class_of(arrival_.frame);
+  if (queues_.waiting() == only(q) && !shaping_->is_timed(q) && !shaping_->limits_sdu()) [[likely]] {
     has_arrival_ = false;
-    admit(simulation, frame);
+    admit(simulation, arrival_.frame);
     if (!has_new_head_) [[likely]] return;
     has_new_head_ = false;
   }
-  settle_all_classes(simulation);
+  select_among_all(simulation);
 }
 
-/// The common case of a port that wakes up: frames of one class wait.
-void EgressPort::settle_waiting(sim::Simulation& simulation) {
+/// The medium is busy. Where express frames wait, a preemptable frame under way may be cut.
+inline void EgressPort::wait_for_medium(sim::Simulation& simulation) {
+  if (const MacMerge* const merge = merge_of(); merge != nullptr && merge->under_way() && (queues_.waiting() & ~merge->preemptable()) != 0)
+    if (const std::optional<MacMerge::Cut> earliest = merge->earliest_cut(simulation.now())) cut(simulation, *earliest);
+  note_waiting();
+  if (!queues_.empty() || (extras_ && extras_->merge->rest())) wake_at(simulation, link_.free_at());
+}
+
+/// A port wakes up, and frames of one class wait, or of several which nothing but their order keeps. At a port that preempts express frames come first, then the rest of a frame that was cut.
+void EgressPort::start_waiting(sim::Simulation& simulation) {
   const sim::TrueTime now = simulation.now();
   if (now < link_.free_at()) {
-    wake_at(simulation, link_.free_at());
+    wait_for_medium(simulation);
     return;
   }
-  const TrafficClass q = highest_class(queues_.waiting());
+  ClassSet waiting = queues_.waiting();
+  if (MacMerge* const merge = merge_of(); merge != nullptr) {
+    const auto express = static_cast<ClassSet>(waiting & ~merge->preemptable());
+    if (express == 0 && merge->rest()) {
+      resume(simulation);
+      wait_for_medium(simulation);
+      return;
+    }
+    if (express != 0) waiting = express;
+  }
+  if (waiting == 0) {
+    note_waiting();
+    return;
+  }
+  const TrafficClass q = highest_class(waiting);
   const FrameIndex frame = queues_.head(q, shared_->entries);
   const Frame& record = shared_->traffic->frame(frame);
-  const bool is_ready = !shaping_ || promised_ == now || (only_gates_ != nullptr && is_in_known_window(now, q, record));
-  const sim::TrueTime ready = is_ready ? now : shaping_->ready_time(now, q, {record.length, eligible_of(record)});
-  if (ready != now) {
-    if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
-    wake_at(simulation, ready);
-    return;
+  if (shaping_) {
+    const sim::TrueTime ready = promised_ == now ? now : shaping_->ready_time_of_head(now, q, record);
+    if (ready != now) {
+      if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
+      wake_at(simulation, ready);
+      return;
+    }
   }
   pop(simulation, q);
   if (shaping_) {
-    shaping_->started(now, q, record.length, queues_.empty());
+    shaping_->started(now, q, record.length, queues_.frames(q) == 0);
     sending_ = q;
   }
-  start(simulation, frame, record);
-  if (queues_.empty())
-    find_path();
+  if (extras_)
+    start_merging(simulation, frame, record, q);
   else
-    wake_at(simulation, link_.free_at());
+    start(simulation, frame, record);
+  note_waiting();
+  if (!queues_.empty() || (extras_ && extras_->merge->rest())) wake_at(simulation, link_.free_at());
 }
 
-/// Which way is that of what has come and waits. Like those for a frame that comes alone it ends with what it calls.
-void EgressPort::settle_many(sim::Simulation& simulation) {
-  if (extras_ || !more_arrivals_.empty()) [[unlikely]]
-    only_merges_ && more_arrivals_.empty() ? settle_merging(simulation) : settle_all_classes(simulation);
-  else if (!has_arrival_)
-    is_one_class(queues_.waiting()) ? settle_waiting(simulation) : settle_all_classes(simulation);
-  else if (simulation.now() < link_.free_at() && (!shaping_ || only_gates_ != nullptr))
-    wait_for_medium(simulation, arrival_.frame);
-  else if (shaping_ && queues_.empty())
-    settle_one(simulation, arrival_.frame);
-  else if (only_gates_ != nullptr)
-    wait_for_gate(simulation, arrival_.frame);
-  else
-    settle_all_classes(simulation);
-}
-
-/// The general path: whatever has come at this instant and waits. One frame starts, if it may, and the others wait.
-void EgressPort::settle_all_classes(sim::Simulation& simulation) {
+/// The general case: whatever has come at this instant and waits. One frame starts, if it may, and the others wait.
+void EgressPort::select_among_all(sim::Simulation& simulation) {
   promised_ = sim::TrueTime::never();
   if (has_arrival_) more_arrivals_.insert(more_arrivals_.begin(), arrival_);
   has_arrival_ = false;
@@ -192,7 +270,7 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   if (!shaping_ && !extras_) {  // only the classes count: worth a path of its own, since such ports are most of all
     if (now >= link_.free_at()) start_highest(simulation);
     admit_arrivals(simulation);
-    find_path();
+    note_waiting();
     if (!queues_.empty()) wake_at(simulation, link_.free_at());
     return;
   }
@@ -227,10 +305,10 @@ void EgressPort::settle_all_classes(sim::Simulation& simulation) {
   if (has_new_head_) [[unlikely]] {
     // What was selected, or asked to come again, knew other heads: those of now may start although the ones before them might not.
     has_new_head_ = false;
-    settle_all_classes(simulation);
+    select_among_all(simulation);
     return;
   }
-  find_path();
+  note_waiting();
   if (!queues_.empty() || merge != nullptr) wake_at(simulation, next);
 }
 
@@ -358,17 +436,6 @@ bool EgressPort::passes_max_sdu(sim::Simulation& simulation, FrameIndex frame) {
   if (shaping_->fits_max_sdu(config_->traffic_class_of_priority[record.queue_priority], msdu)) return true;
   give_up(simulation, frame, DropReason::queue_max_sdu);
   return false;
-}
-
-void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
-  const Frame& record = shared_->traffic->frame(frame);
-  const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  DropReason reason{};
-  const bool has_room = queues_.has_room(q, record.length, config_->queue_limits[q], reason);
-  if (!has_room || simulation.trace() != nullptr || (shaping_ && shaping_->is_timed(q))) [[unlikely]]
-    admit_closely(simulation, frame, record, q);
-  else
-    queues_.push(q, frame, record.length, shared_->entries);
 }
 
 /// To a full queue, to one that is not in the order of coming, or where somebody wants to know.

@@ -64,10 +64,15 @@ class alignas(64) EgressPort final : public sim::Component {
   void offer_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
     if (!simulation.is_last()) [[unlikely]]
       offer(simulation, frame, rank);
-    else if (simulation.now() >= link_.free_at() && path_ == Path::plain) [[likely]]
+    else
+      offer_only(simulation, frame, record, rank);
+  }
+  /// The same where Simulation::is_last() has said so.
+  void offer_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
+    if (simulation.now() >= link_.free_at() && starts_at_once_) [[likely]]
       start(simulation, frame, record);
     else
-      take_only(simulation, frame, record, rank);
+      offer_alone(simulation, frame, record, rank);
   }
 
   /// The same for a frame of which only the header has come: it starts at once if this port cuts its class through, the
@@ -131,15 +136,7 @@ class alignas(64) EgressPort final : public sim::Component {
     FrameIndex frame;
     std::uint32_t rank = 0;
   };
-  /// What happens to a frame that comes alone to a free medium.
-  enum class Path : std::uint8_t {
-    plain,     ///< it starts
-    gated,     ///< it starts when its gate lets it; nothing else has a say, and nothing waits
-    shaped,    ///< it starts when gate, eligibility time and credit let it; nothing waits
-    merging,   ///< it starts; it may be cut later, or is express; nothing else has a say, nothing waits
-    general,   ///< frames wait already, or there is more to consider
-  };
-  /// What few ports have besides gates and shapers. Ports whose classes share bandwidth have it too, so that they take the general path.
+  /// What few ports have besides gates and shapers. Ports whose classes share bandwidth have it too, so that they select among all classes.
   struct Extras {
     std::unique_ptr<MacMerge> merge;
     bool expects_headers = false;
@@ -168,34 +165,19 @@ class alignas(64) EgressPort final : public sim::Component {
     sim::TrueTime ask_again = sim::TrueTime::never();
   };
 
-  void settle_many(sim::Simulation& simulation);
-  [[gnu::noinline]] void settle_all_classes(sim::Simulation& simulation);
-  [[gnu::noinline]] void settle_one(sim::Simulation& simulation, FrameIndex frame);
-  [[gnu::noinline]] void wait_for_medium(sim::Simulation& simulation, FrameIndex frame);
-  [[gnu::noinline]] void wait_for_gate(sim::Simulation& simulation, FrameIndex frame);
-  [[gnu::noinline]] void settle_waiting(sim::Simulation& simulation);
-  // Of a frame that comes alone: see egress_port_alone.cpp.
-  void pass_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  void pass_gate(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  [[gnu::noinline]] void pass_gate_later(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  [[gnu::noinline]] void pass_gate_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  [[gnu::noinline]] void pass_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  [[gnu::noinline]] void pass_shaping_exactly(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  [[gnu::noinline]] void pass_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  void start_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q);
-  // Of a port that preempts and has nothing else.
-  [[gnu::noinline]] void settle_merging(sim::Simulation& simulation);
-  void wait_or_cut(sim::Simulation& simulation, FrameIndex frame);
-  void go_on_merging(sim::Simulation& simulation);
-  void take_only(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
-  void take_among_others(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
-  void find_path();
-  void find_gates();
-  void decide_later(sim::Simulation& simulation) {
-    if (will_decide_) return;
-    will_decide_ = true;
-    simulation.decide_later(id(), sim::Decision::egress);
-  }
+  // What has come at this instant and what waits is one of five cases: start_alone() of a frame that comes alone to a free medium while nothing waits, and these.
+  void start_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void queue_arrival(sim::Simulation& simulation);
+  [[gnu::noinline]] void queue_behind_promised(sim::Simulation& simulation);
+  [[gnu::noinline]] void start_waiting(sim::Simulation& simulation);
+  [[gnu::noinline]] void select_among_all(sim::Simulation& simulation);
+  void offer_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
+  [[gnu::noinline]] void decide_now(sim::Simulation& simulation);
+  [[gnu::noinline]] void ask_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  void wait_for_medium(sim::Simulation& simulation);
+  void note_waiting();
+  void note_features();
+  [[gnu::noinline]] void decide_later(sim::Simulation& simulation);
   ClassSet candidates() const;
   First first_of(TrafficClass q) const;
   Selection select(sim::TrueTime now, ClassSet classes, sim::Duration delay = {});
@@ -212,6 +194,8 @@ class alignas(64) EgressPort final : public sim::Component {
   std::optional<StoringDetail> why_stored(sim::TrueTime now, const Extras::HeaderArrival& header);
   void start_first(sim::Simulation& simulation, const Selection& selection);
   void start_selected(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, bool queue_is_empty);
+  /// At a port that preempts and has nothing else.
+  [[gnu::noinline]] void start_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q);
   void start_with_extras(sim::Simulation& simulation, FrameIndex frame, TrafficClass q);
   void resume(sim::Simulation& simulation);
   void cut(sim::Simulation& simulation, const MacMerge::Cut& cut);
@@ -240,30 +224,21 @@ class alignas(64) EgressPort final : public sim::Component {
   TrafficClass class_of(FrameIndex frame) const {
     return config_->traffic_class_of_priority[shared_->traffic->frame(frame).queue_priority];
   }
-  /// From the first bit of its preamble to its last bit, which must leave before its gate closes.
-  sim::Duration occupancy_until_last_bit(const Frame& record) const { return octet_time() * (preamble_and_sfd.count + std::int64_t{record.length}); }
-  /// The same without asking the gates.
-  bool is_surely_in_known_window(sim::TrueTime now, TrafficClass q, const Frame& record) const {
-    return q == open_class_ && now + occupancy_until_last_bit(record) <= open_until_;
-  }
-  /// Of a port with nothing but gates. False: no answer.
-  bool is_in_known_window(sim::TrueTime now, TrafficClass q, const Frame& record) const {
-    return clock_->is_ideal() && only_gates_->is_in_known_window(q, clock_->local_at(now), occupancy_until_last_bit(record));
-  }
   /// Preamble and gap included.
   std::int64_t octets_on_medium(FrameIndex frame) const { return wire_length(Octets{shared_->traffic->frame(frame).length}).count; }
   sim::LocalTime eligible_of(FrameIndex frame) const {
     return eligible_of(shared_->traffic->frame(frame));
   }
-  static sim::LocalTime eligible_of(const Frame& record) { return record.marked ? record.eligible : sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()); }
+  static sim::LocalTime eligible_of(const Frame& record) { return PortShaping::eligible_of(record); }
+  MacMerge* merge_of() const { return extras_ ? extras_->merge.get() : nullptr; }
 
   // One cache line holds all that a frame touches at a port that is free.
   bool will_decide_ = false;                 // it has asked to, at the end of this instant
   bool has_arrival_ = false;
-  Path path_ = Path::plain;
+  bool starts_alone_ = true;                 // nothing waits: a frame that comes alone to the free medium starts if shaping_ lets it
+  bool starts_at_once_ = true;               // the same, and there is neither shaping nor extras
   TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
   ClassSet ranked_ = every_class;            // those that do not share bandwidth: the most urgent one goes first
-  TrafficClass open_class_ = 0;              // see open_until_
   Link link_;
   // Touched when frames wait.
   Arrival arrival_;                          // the first of this instant
@@ -273,9 +248,7 @@ class alignas(64) EgressPort final : public sim::Component {
   const LocalClock* clock_ = nullptr;
   std::unique_ptr<PortShaping> shaping_;
   std::unique_ptr<Extras> extras_;
-  sim::TrueTime open_until_;                 // of a port with nothing but gates: open_class_ is open from now on until then; 0 if that is not known, or the clock is not ideal
-  GateSchedule* only_gates_ = nullptr;       // if there is nothing but gates
-  sim::TrueTime promised_ = sim::TrueTime::never();  // when the one frame that waits may start: its gate has said so
+  sim::TrueTime promised_ = sim::TrueTime::never();  // when the head of the only class that waits may start: its gate has said so
   std::uint64_t frames_dropped_ = 0;
   Link* incoming_ = nullptr;
   PortQueues queues_;

@@ -6,6 +6,19 @@
 
 namespace takt::models {
 
+void EgressPort::start_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q) {
+  if (record.link_local || simulation.trace() != nullptr) [[unlikely]] {
+    start_with_extras(simulation, frame, q);
+    return;
+  }
+  MacMerge& merge = *extras_->merge;
+  if (merge.is_preemptable(q))
+    merge.started({frame, q, simulation.now(), Octets{record.length}, link_.arrival_of(simulation.now(), record)});
+  else
+    merge.express_started();
+  link_.transmit(simulation, frame, record);
+}
+
 void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame, TrafficClass q) {
   const Frame& record = shared_->traffic->frame(frame);
   const sim::TrueTime now = simulation.now();
@@ -245,17 +258,18 @@ void EgressPort::force_gate(sim::Simulation& simulation, TrafficClass q, std::op
 
 void EgressPort::gates_changed(sim::Simulation& simulation) {
   if (const sim::TrueTime last_bit = link_.last_bit(); last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
-  find_gates();
+  note_features();
   ask_again(simulation);
 }
 
 void EgressPort::clock_changed(sim::Simulation& simulation) {
-  if (shaping_) ask_again(simulation);
+  if (!shaping_) return;
+  shaping_->find_gated();
+  ask_again(simulation);
 }
 
 void EgressPort::ask_again(sim::Simulation& simulation) {
   promised_ = sim::TrueTime::never();
-  open_until_ = {};
   if (extras_ && extras_->merge) extras_->merge->gates_changed();
   if (!queues_.empty() || (extras_ && extras_->merge)) decide_later(simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]

@@ -65,20 +65,9 @@ class GateSchedule {
   /// The first instant after `now` at which any gate changes its state.
   sim::LocalTime next_change(sim::LocalTime now);
 
-  /// True if such a frame may start since it fits into the window in which may_start() has last said that one of the class may; no answer otherwise.
-  bool is_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) const {
-    return q == known_.traffic_class && now >= known_.from && now <= known_.until - duration;
-  }
-  /// When that window ends.
-  sim::LocalTime known_window_end() const { return known_.until; }
-  /// The same of that window a cycle later, which is the one that is known from then on.
-  bool is_in_next_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
-    if (now < known_.next_from) return false;
-    known_.from = known_.next_from;
-    known_.until = moved(known_.until, known_.cycle.ps());
-    known_.next_from = moved(known_.from, known_.cycle.ps());
-    return is_in_known_window(q, now, duration);
-  }
+  /// True if such a frame may start since it fits into the window in which may_start() has last said that one of the class may, or into the one a cycle later, which is the one that is
+  /// known from then on. False: no answer.
+  bool starts_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) { return is_in_known_window(q, now, duration) || is_in_next_known_window(q, now, duration); }
   /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes (8.6.8.4)?
   /// Which octets are part of the duration is the caller's choice.
   StartAnswer may_start(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
@@ -177,6 +166,16 @@ class GateSchedule {
     } else {
       known_ = {q, cycle, sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()), sim::LocalTime::never(), sim::LocalTime::never()};   // it is always open
     }
+  }
+  bool is_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) const {
+    return q == known_.traffic_class && now >= known_.from && now <= known_.until - duration;
+  }
+  bool is_in_next_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+    if (now < known_.next_from) return false;
+    known_.from = known_.next_from;
+    known_.until = moved(known_.until, known_.cycle.ps());
+    known_.next_from = moved(known_.from, known_.cycle.ps());
+    return is_in_known_window(q, now, duration);
   }
   StartAnswer may_start_by_search(const Place& place, TrafficClass q, sim::LocalTime now, sim::Duration duration) const;
   bool holds_in(const Place& place) const;

@@ -16,12 +16,20 @@ PortShaping::PortShaping(const ShapingConfig& config, const LocalClock& clock, s
   }
   if (config.shared() != 0) round_ = std::make_unique<DeficitRoundRobin>(quanta);
   if (config.gates) request_gates(sim::TrueTime(), first_request(clock.local_at(sim::TrueTime()), config.gates->admin_base_time, config.gates->is_running), *config.gates);
+  find_gated();
+}
+
+void PortShaping::find_gated() {
+  gated_ = 0;
+  for (TrafficClass q = 0; q < traffic_class_count; ++q)
+    if (has_gates_ && clock_->is_ideal() && !is_stuck(q) && !is_timed(q) && credits_[q] == nullptr) gated_ = with(gated_, q);
 }
 
 ConfigChange PortShaping::request_gates(sim::TrueTime now, const GateConfig& gates) { return request_gates(now, clock_->local_at(now), gates); }
 
 ConfigChange PortShaping::request_gates(sim::TrueTime now, sim::LocalTime asked, const GateConfig& gates) {
   has_gates_ = true;
+  find_gated();
   lists_.push_back(std::make_unique<GateControlList>(gates.admin_control_list, gates.admin_cycle_time));
   const GateSchedule::AdminConfig admin{lists_.back().get(), gates.admin_base_time, gates.admin_cycle_time_extension};
   for (TrafficClass q = 0; q < traffic_class_count; ++q)
@@ -33,7 +41,7 @@ ConfigChange PortShaping::request_gates(sim::TrueTime now, sim::LocalTime asked,
 [[gnu::always_inline]] inline sim::TrueTime PortShaping::gate_ready_time(sim::TrueTime now, TrafficClass q, std::uint32_t length, sim::Duration delay) {
   if (!has_gates_) return now;
   if (is_stuck(q)) [[unlikely]] return contains(forced_open_, q) ? now : sim::TrueTime::never();
-  const StartAnswer answer = gates_.may_start(q, clock_->local_at(now), delay + octet_time_ * (preamble_and_sfd.count + std::int64_t{length}));
+  const StartAnswer answer = gates_.may_start(q, clock_->local_at(now), delay + occupancy_until_last_bit(length));
   if (answer.may_start) return now;
   return clock_->true_after(answer.ask_again, now);
 }
@@ -46,7 +54,7 @@ sim::TrueTime PortShaping::ready_time(sim::TrueTime now, TrafficClass q, const H
   return now;
 }
 
-sim::TrueTime PortShaping::start_alone(sim::TrueTime now, TrafficClass q, const Head& head) {
+sim::TrueTime PortShaping::start_exactly(sim::TrueTime now, TrafficClass q, const Head& head) {
   frame_waits(now, q);
   const sim::TrueTime ready = ready_time(now, q, head);
   if (ready == now) started(now, q, head.length, true);
@@ -77,9 +85,11 @@ void PortShaping::force_gate(sim::TrueTime now, TrafficClass q, std::optional<bo
   if (CreditBasedSelection* const credit = credit_based(q)) credit->force_gate(gate_of(q), now, open);
   forced_open_ = without(forced_open_, q);
   forced_closed_ = without(forced_closed_, q);
-  if (!open) return;
-  ClassSet& set = *open ? forced_open_ : forced_closed_;
-  set = with(set, q);
+  if (open) {
+    ClassSet& set = *open ? forced_open_ : forced_closed_;
+    set = with(set, q);
+  }
+  find_gated();
 }
 
 void PortShaping::check_overrun(sim::TrueTime now, TrafficClass q, sim::TrueTime last_bit) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -61,15 +62,23 @@ class PortShaping {
   void started(sim::TrueTime now, TrafficClass q, std::uint32_t length, bool queue_is_empty) {
     if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_started(now, occupancy(length), queue_is_empty);
   }
-  /// frame_waits() and ready_time() of a frame that comes where none of its class waits and the medium is free, and started() if that is `now`. `now` if it has started.
-  sim::TrueTime start_alone(sim::TrueTime now, TrafficClass q, const Head& head);
-  /// The same for what is so most often: there are no gates, the time of the frame has come, and the credit is at rest. `local` is what the clock shows. True if it has started; false:
-  /// nothing has happened, and start_alone() follows.
-  bool starts_at_once(sim::TrueTime now, sim::LocalTime local, TrafficClass q, const Frame& frame) {
-    if (has_gates_ || (is_timed(q) && frame.marked && frame.eligible > local)) return false;
+  // A frame comes where none of its class waits and the medium is free.
+  /// The cheap test of each piece: the frame is in a known window of its gate, its time has come, its credit is at rest. True: it has started. False: nothing has happened, and
+  /// start_exactly() follows.
+  bool starts_at_once(sim::TrueTime now, TrafficClass q, const Frame& frame) {
+    if (contains(gated_, q)) return is_in_known_window(now, q, frame);
+    if (!clock_->is_ideal() || has_gates_ || (is_timed(q) && frame.marked && frame.eligible > clock_->local_at(now))) return false;
     CreditBasedSelection* const credit = credit_based(q);
     return credit == nullptr || credit->starts_at_rest(now, occupancy(frame.length));
   }
+  /// frame_waits() and ready_time(), and started() if that is `now`. `now` if it has started.
+  sim::TrueTime start_exactly(sim::TrueTime now, TrafficClass q, const Head& head);
+  /// ready_time() of the first frame of a queue.
+  sim::TrueTime ready_time_of_head(sim::TrueTime now, TrafficClass q, const Frame& frame) {
+    return is_in_known_window(now, q, frame) ? now : ready_time(now, q, {frame.length, eligible_of(frame)});
+  }
+  /// Counts in timed classes.
+  static sim::LocalTime eligible_of(const Frame& frame) { return frame.marked ? frame.eligible : sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()); }
   /// The frame under way is cut; the medium is free at `free_at`.
   void cut(sim::TrueTime now, TrafficClass q, sim::TrueTime free_at) {
     if (CreditBasedShaper* const credit = credit_of(q, now)) credit->transmission_cut(now, free_at);
@@ -85,9 +94,10 @@ class PortShaping {
   /// A broken gate: from now on it is open, or closed, whatever the list says; nothing: it works again.
   void force_gate(sim::TrueTime now, TrafficClass q, std::optional<bool> open);
 
+  /// To be called when the clock has changed, too.
+  void find_gated();
+
   bool is_timed(TrafficClass q) const { return contains(timed_, q); }
-  /// Nothing but gates, none of them stuck.
-  bool has_only_gates() const { return has_gates_ && !limits_sdu_ && config_->has_strict_priority_only() && (forced_open_ | forced_closed_) == 0; }
   bool limits_sdu() const { return limits_sdu_; }
   bool fits_max_sdu(TrafficClass q, std::uint32_t msdu) const {
     return config_->queue_max_sdu[q].count == 0 || msdu <= config_->queue_max_sdu[q].count;
@@ -110,6 +120,12 @@ class PortShaping {
 
  private:
   ConfigChange request_gates(sim::TrueTime now, sim::LocalTime asked, const GateConfig& gates);
+  /// Nothing but its gate has a say in the class, and the gate surely lets the frame pass.
+  bool is_in_known_window(sim::TrueTime now, TrafficClass q, const Frame& frame) {
+    return contains(gated_, q) && gates_.starts_in_known_window(q, sim::LocalTime::from_ps(now.ps()), occupancy_until_last_bit(frame.length));
+  }
+  /// From the first bit of its preamble to its last bit, which must leave before its gate closes.
+  sim::Duration occupancy_until_last_bit(std::uint32_t length) const { return octet_time_ * (preamble_and_sfd.count + std::int64_t{length}); }
   /// Its time is still to come.
   bool is_held(TrafficClass q, sim::TrueTime now, const Head& head) const { return is_timed(q) && head.eligible > clock_->local_at(now); }
   sim::Duration occupancy(std::uint32_t length) const { return octet_time_ * wire_length(Octets{length}).count; }
@@ -129,6 +145,7 @@ class PortShaping {
   bool has_gates_;
   bool limits_sdu_;
   ClassSet timed_;
+  ClassSet gated_ = 0;         // classes in which a gate that is not stuck has a say, and nothing else; none where the clock is not ideal
   ClassSet forced_open_ = 0;
   ClassSet forced_closed_ = 0;
   GateSchedule gates_;

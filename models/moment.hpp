@@ -1,4 +1,4 @@
-// How things are when a trace record is told, for recorders that hear of it later than it happened.
+// The state of frames and clocks at the instant of a trace record, for sinks that get records late.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace takt::models {
 
-/// What belongs to one record. The numbers by which records of frames go are those of whoever tells it: each is used again only after Occurrence::ended.
+/// The state that belongs to one record. Frame numbers are those of the emitter: each is used again only after
+/// Occurrence::ended.
 struct Moment {
   Frame frame;                              ///< that the record names, if it names one
   std::span<const std::byte> payload = {};  ///< its octets, if the model holds them and somebody wants them
@@ -19,25 +20,35 @@ struct Moment {
   sim::Duration node_delay;                 ///< the same: LinkEnd::node_delay
 };
 
-/// Where a recorder looks: into the network, as long as it is told of things as they happen, or at the moment that it is told of.
+/// Where a sink reads state: in the network while records arrive as they happen, or in the attached moment.
 class View {
  public:
   /// The network outlives it.
   explicit View(const Network& network) : network_(&network) {}
-  /// From now on records are told with their moment, which is that of the present record whenever one is told.
+  /// Attaches the moment of each trace record.
   void look_at(const Moment& moment) { moment_ = &moment; }
-  /// Whether Occurrence::ended is told.
+  /// Whether Occurrence::ended is emitted.
   bool is_told_of_ends() const { return moment_ != nullptr; }
 
-  // Of the record that is being told.
-  const Frame& frame(FrameIndex frame) const { return moment_ != nullptr ? moment_->frame : network_->traffic().frame(frame); }
+  // Of the present record.
+  const Frame& frame(FrameIndex frame) const {
+    return moment_ != nullptr ? moment_->frame : network_->traffic().frame(frame);
+  }
   /// Precondition: the frame has a payload.
-  std::span<const std::byte> payload(const Frame& frame) const { return moment_ != nullptr ? moment_->payload : network_->traffic().payload(frame.payload).view(); }
+  std::span<const std::byte> payload(const Frame& frame) const {
+    return moment_ != nullptr ? moment_->payload : network_->traffic().payload(frame.payload).view();
+  }
   /// At the port that it names.
-  std::uint32_t queued_frames(NodeIndex node, std::uint16_t port) const { return moment_ != nullptr ? moment_->queued_frames : queued_frames_now(*network_, node, port); }
+  std::uint32_t queued_frames(NodeIndex node, std::uint16_t port) const {
+    return moment_ != nullptr ? moment_->queued_frames : queued_frames_now(*network_, node, port);
+  }
   /// Of started: the delay of the link, and the share of the node behind it.
-  sim::Duration delay(NodeIndex node, std::uint16_t port) const { return moment_ != nullptr ? moment_->delay : far_end(node, port).delay; }
-  sim::Duration node_delay(NodeIndex node, std::uint16_t port) const { return moment_ != nullptr ? moment_->node_delay : far_end(node, port).node_delay; }
+  sim::Duration delay(NodeIndex node, std::uint16_t port) const {
+    return moment_ != nullptr ? moment_->delay : far_end(node, port).delay;
+  }
+  sim::Duration node_delay(NodeIndex node, std::uint16_t port) const {
+    return moment_ != nullptr ? moment_->node_delay : far_end(node, port).node_delay;
+  }
 
   static std::uint32_t queued_frames_now(const Network& network, NodeIndex node, std::uint16_t port) {
     const PortQueues& queues = network.ports(node)[port].queues();
@@ -47,7 +58,9 @@ class View {
   }
 
  private:
-  const LinkEnd& far_end(NodeIndex node, std::uint16_t port) const { return network_->ports(node)[port].link().reception().far_end; }
+  const LinkEnd& far_end(NodeIndex node, std::uint16_t port) const {
+    return network_->ports(node)[port].link().reception().far_end;
+  }
 
   const Network* network_;
   const Moment* moment_ = nullptr;

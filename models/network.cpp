@@ -7,7 +7,8 @@
 
 namespace takt::models {
 
-Network::Network(sim::Simulation& simulation, NetworkPlan plan, Share share) : simulation_(&simulation), plan_(std::move(plan)), share_(share) {
+Network::Network(sim::Simulation& simulation, NetworkPlan plan, Share share)
+    : simulation_(&simulation), plan_(std::move(plan)), share_(share) {
   shared_.traffic = &traffic_;
   number_ports();
   make_clocks();
@@ -38,7 +39,8 @@ Network::Network(sim::Simulation& simulation, NetworkPlan plan, Share share) : s
 
 Network::~Network() = default;
 
-/// What a host draws for each frame that comes by its only link. Links that may fail, and those of nodes that may, are not plain.
+/// What a host draws for each frame that comes by its only link. Links that may fail, and those of nodes that may, are
+/// not plain.
 void Network::fold_latencies() {
   for (const LinkPlan& link : plan_.links) {
     for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
@@ -49,7 +51,7 @@ void Network::fold_latencies() {
   }
 }
 
-/// Whoever records the run is told of each arrival.
+/// Emits a trace record per arrival.
 void Network::unfold_latencies() {
   for (const LinkPlan& link : plan_.links) {
     for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
@@ -64,7 +66,8 @@ void Network::unfold_latencies() {
 void Network::note_routes() {
   routes_.emplace(traffic_.streams().size());
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n)
-    if (plan_.nodes[n].kind == NodeKind::bridge) bridges_[n]->note_routes(*routes_, static_cast<std::uint32_t>(first_port_[n]));
+    if (plan_.nodes[n].kind == NodeKind::bridge)
+      bridges_[n]->note_routes(*routes_, static_cast<std::uint32_t>(first_port_[n]));
 }
 
 void Network::make_clocks() {
@@ -102,15 +105,17 @@ void Network::set_up_gptp() {
     if (!plan_.gptp[n]) continue;
     TAKT_CHECK(clocks_[n] != nullptr, "a node with gPTP has a clock of its own");
     const std::span<EgressPort> ports = mutable_ports(NodeIndex{n});
-    stations_[n] = std::make_unique<gptp::Station>(*simulation_, traffic_, ports, *clocks_[n], plan_.nodes[n].clock->timestamps,
-                                                   plan_.gptp_stations[*plan_.gptp[n]], NodeIndex{n}, *gptp_stream_, plan_.nodes[n].name);
+    stations_[n] = std::make_unique<gptp::Station>(
+        *simulation_, traffic_, ports, *clocks_[n], plan_.nodes[n].clock->timestamps,
+        plan_.gptp_stations[*plan_.gptp[n]], NodeIndex{n}, *gptp_stream_, plan_.nodes[n].name);
     simulation_->group(stations_[n]->id(), component_of(NodeIndex{n}));
     if (cpus_[n] && plan_.nodes[n].cpu->gptp) stations_[n]->run_on(*cpus_[n], *plan_.nodes[n].cpu->gptp);
     if (bridges_[n]) bridges_[n]->set_link_local_receiver(stations_[n].get());
     if (hosts_[n]) hosts_[n]->set_link_local_receiver(stations_[n].get());
     for (std::uint16_t p = 0; p < ports.size(); ++p) {
       if (!ports[p].is_connected()) continue;
-      if (port_of_component_.size() <= ports[p].id().index) port_of_component_.resize(ports[p].id().index + std::size_t{1});
+      if (port_of_component_.size() <= ports[p].id().index)
+        port_of_component_.resize(ports[p].id().index + std::size_t{1});
       port_of_component_[ports[p].id().index] = {NodeIndex{n}, p};
     }
   }
@@ -121,12 +126,8 @@ void Network::transmission_starts(sim::Simulation&, sim::ComponentId port, Frame
   stations_[node.value]->transmission_starts(number, frame);
 }
 
-void Network::step_clock(NodeIndex node, sim::Duration by) { clocks_[node.value]->step(*simulation_, by); }
-
-void Network::set_frequency_offset(NodeIndex node, sim::FrequencyOffset offset) { clocks_[node.value]->set_frequency_offset(*simulation_, offset); }
-
 void Network::add_streams() {
-  traffic_.expect_streams(plan_.streams.size() + 1);   // gPTP has one
+  traffic_.expect_streams(plan_.streams.size() + 1);  // gPTP has one
   for (const StreamPlan& stream : plan_.streams) {
     Stream record;
     record.name = stream.name;
@@ -158,16 +159,18 @@ void Network::add_talker(const TalkerPlan& talker) {
   const StreamPlan& stream = plan_.streams[talker.stream.value];
   const NodePlan& node = plan_.nodes[stream.talker.value];
   HostOutput& output = output_of_host(stream.talker);
-  talkers_.push_back(std::make_unique<Talker>(*simulation_, traffic_, output, clock_of(stream.talker), plan_.os_latencies[node.os_latency],
-                                              node.name + "/" + (talker.name.empty() ? stream.name : talker.name), talker.stream, talker.payload,
-                                              talker.schedule));
+  talkers_.push_back(std::make_unique<Talker>(*simulation_, traffic_, output, clock_of(stream.talker),
+                                              plan_.os_latencies[node.os_latency],
+                                              node.name + "/" + (talker.name.empty() ? stream.name : talker.name),
+                                              talker.stream, talker.payload, talker.schedule));
   simulation_->group(talkers_.back()->id(), component_of(stream.talker));
   talkers_.back()->set_until(talker.until);
   if (talker.babbles) {
     talkers_.back()->set_babbling();
     babblers_.emplace(talker.stream.value, talkers_.back().get());
   } else {
-    for (auto [other, end] = babblers_.equal_range(talker.stream.value); other != end; ++other) other->second->share_latency(*talkers_.back());
+    for (auto [other, end] = babblers_.equal_range(talker.stream.value); other != end; ++other)
+      other->second->share_latency(*talkers_.back());
   }
   if (node.cpu && node.cpu->transmit) talkers_.back()->send_on(*cpus_[stream.talker.value], *node.cpu->transmit);
   if (followers_[stream.talker.value]) followers_[stream.talker.value]->talkers.push_back(talkers_.back().get());
@@ -175,7 +178,7 @@ void Network::add_talker(const TalkerPlan& talker) {
   if (!talker.launch && !stream.host_priority) return;
   if (talker.launch) {
     talkers_.back()->set_launch(*talker.launch);
-    output.look_closer();
+    output.disable_fast_path();
   }
   for (EgressPort& port : mutable_ports(stream.talker)) port.link().check_arrivals();
 }
@@ -200,15 +203,18 @@ void Network::set_up_ingress() {
 void Network::set_up_talker_ats() {
   for (const TalkerAtsPlan& shaped : plan_.talker_ats) {
     const NodeIndex talker = plan_.streams[shaped.stream.value].talker;
-    output_of_host(talker).shape(shaped.stream, shaped.committed_information_rate, shaped.committed_burst_size, shaped.media_overhead);
+    output_of_host(talker).shape(shaped.stream, shaped.committed_information_rate, shaped.committed_burst_size,
+                                 shaped.media_overhead);
     for (EgressPort& port : mutable_ports(talker)) port.link().check_arrivals();
   }
 }
 
 void Network::set_up_redundancy() {
   for (const HostSplitPlan& split : plan_.host_splits)
-    output_of_host(plan_.streams[split.stream.value].talker).split(split.stream, split.split, hosts_[plan_.streams[split.stream.value].talker.value]->id());
-  for (const HostRecoveryPlan& recovery : plan_.host_recoveries) hosts_[recovery.host.value]->recover(recovery.stream, recovery.recovery);
+    output_of_host(plan_.streams[split.stream.value].talker)
+        .split(split.stream, split.split, hosts_[plan_.streams[split.stream.value].talker.value]->id());
+  for (const HostRecoveryPlan& recovery : plan_.host_recoveries)
+    hosts_[recovery.host.value]->recover(recovery.stream, recovery.recovery);
 }
 
 void Network::set_up_faults() {
@@ -218,9 +224,10 @@ void Network::set_up_faults() {
   for (const LinkPlan& link : plan_.links) {
     if (!link.may_fail) continue;
     for (const auto& [from, to] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
-      const std::string path = plan_.nodes[from->node.value].name + " to " + plan_.nodes[to->node.value].name + ":" + std::to_string(to->port);
+      const std::string path = plan_.nodes[from->node.value].name + " to " + plan_.nodes[to->node.value].name + ":" +
+                               std::to_string(to->port);
       mutable_ports(from->node)[from->port].link().expect_faults(*simulation_, path);
-      if (outputs_[from->node.value]) outputs_[from->node.value]->look_closer();
+      if (outputs_[from->node.value]) outputs_[from->node.value]->disable_fast_path();
     }
   }
   for (const ImpairmentPlan& impairment : plan_.impairments) {
@@ -230,8 +237,8 @@ void Network::set_up_faults() {
   }
 }
 
-/// Tells the ports that send to a bridge of which priorities it wants to know the headers: those that another port of it cuts
-/// through, and no port of it sends by eligibility times, which are counted from the last bit.
+/// Tells the ports that send to a bridge of which priorities it wants to know the headers: those that another port of
+/// it cuts through, and no port of it sends by eligibility times, which are counted from the last bit.
 void Network::announce_cut_through() {
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
     if (bridges_[n] == nullptr) continue;
@@ -240,12 +247,15 @@ void Network::announce_cut_through() {
     std::uint8_t timed = 0;
     for (const EgressPort& port : ports)
       for (unsigned p = 0; port.is_connected() && p < 8; ++p)
-        if (port.config().shaping.is_timed(port.config().traffic_class_of_priority[p])) timed = static_cast<std::uint8_t>(timed | 1u << p);
+        if (port.config().shaping.is_timed(port.config().traffic_class_of_priority[p]))
+          timed = static_cast<std::uint8_t>(timed | 1u << p);
     for (EgressPort& port : ports) {
       std::uint8_t priorities = 0;
       for (const EgressPort& other : ports)
         for (unsigned p = 0; p < 8; ++p)
-          if (&other != &port && other.is_connected() && contains(other.config().cut_through, other.config().traffic_class_of_priority[p])) priorities = static_cast<std::uint8_t>(priorities | 1u << p);
+          if (&other != &port && other.is_connected() &&
+              contains(other.config().cut_through, other.config().traffic_class_of_priority[p]))
+            priorities = static_cast<std::uint8_t>(priorities | 1u << p);
       priorities = static_cast<std::uint8_t>(priorities & ~timed);
       if (priorities == 0 || !port.is_connected()) continue;
       port.incoming().notice_headers(priorities, plan_.nodes[n].cut_through_header);
@@ -255,55 +265,6 @@ void Network::announce_cut_through() {
     for (EgressPort& port : ports)
       if (announced && port.is_connected()) port.expect_headers();
   }
-}
-
-void Network::set_link(std::uint32_t link, bool up) {
-  change_link(link, up);
-  cuts_[link] = up ? cuts_[link] - 1 : cuts_[link] + 1;
-  refresh_joints();
-}
-
-void Network::change_link(std::uint32_t link, bool up) {
-  const LinkPlan& plan = plan_.links[link];
-  TAKT_CHECK(plan.may_fail, "a link that fails is known to");
-  std::uint32_t& reasons = reasons_down_[link];
-  const bool was_up = reasons == 0;
-  reasons = up ? reasons - 1 : reasons + 1;
-  if (was_up == (reasons == 0)) return;
-  for (const LinkPlan::End& end : {plan.a, plan.b}) mutable_ports(end.node)[end.port].set_link_up(*simulation_, reasons == 0);
-  for (const LinkPlan::End& end : {plan.a, plan.b})
-    if (stations_[end.node.value]) stations_[end.node.value]->set_link(end.port, reasons == 0);
-}
-
-void Network::set_node(NodeIndex node, bool up) {
-  if (up) take_apart([&](const Joint& joint) { return std::find(joint.over.begin(), joint.over.end(), node) != joint.over.end(); });
-  for (std::uint32_t l = 0; l < plan_.links.size(); ++l)
-    if (plan_.links[l].a.node == node || plan_.links[l].b.node == node) change_link(l, up);
-  std::uint32_t& crashes = crashes_[node.value];
-  crashes = up ? crashes - 1 : crashes + 1;
-  refresh_joints();
-  if (crashes != (up ? 0u : 1u)) return;  // it crashed once more, or is not back from another crash
-  if (cpus_[node.value] && !up) cpus_[node.value]->crash();
-  if (stations_[node.value]) stations_[node.value]->set_up(up);
-  if (hosts_[node.value] == nullptr) return;
-  hosts_[node.value]->set_up(up);
-  if (outputs_[node.value]) outputs_[node.value]->set_up(up);
-  for (std::size_t i = 0; i < processes_.size(); ++i) {
-    if (host_of_process_[i] != node) continue;
-    if (up)
-      processes_[i]->restart();
-    else
-      processes_[i]->crash();
-  }
-}
-
-void Network::force_gate(NodeIndex node, std::uint16_t port, TrafficClass q, std::optional<bool> open) {
-  mutable_ports(node)[port].force_gate(*simulation_, q, open);
-}
-
-void Network::reroute(NodeIndex node, VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports) {
-  bridges_[node.value]->filtering_database().assign(vlan, address, ports);
-  if (routes_) routes_->forget();
 }
 
 void Network::number_ports() {
@@ -327,12 +288,14 @@ void Network::make_nodes() {
     if (chooses_ports(NodeIndex{n})) bridges_[n] = std::make_unique<Bridge>(traffic_, ports, node.forwarding_delay);
     if (node.forwards()) bridges_[n]->set_id(simulation_->add(*bridges_[n]));
     if (node.forwarding_jitter) {
-      jitters_.push_back(std::make_unique<ForwardingJitter>(*node.forwarding_jitter, simulation_->seed(), node.name, ports.size()));
+      jitters_.push_back(
+          std::make_unique<ForwardingJitter>(*node.forwarding_jitter, simulation_->seed(), node.name, ports.size()));
       bridges_[n]->set_jitter(jitters_.back().get());
     }
     if (!node.is_end_station()) continue;
-    hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency], node.name, ports, clock_of(NodeIndex{n}),
-                                       chooses_ports(NodeIndex{n}), node.cpu && node.cpu->receive);
+    hosts_[n] = std::make_unique<Host>(*simulation_, traffic_, NodeIndex{n}, plan_.os_latencies[node.os_latency],
+                                       node.name, ports, clock_of(NodeIndex{n}), chooses_ports(NodeIndex{n}),
+                                       node.cpu && node.cpu->receive);
     simulation_->group(hosts_[n]->id(), component_of(NodeIndex{n}));
     if (node.cpu) {
       cpus_[n] = std::make_unique<Cpu>(*simulation_, *node.cpu, NodeIndex{n}, node.name);
@@ -350,18 +313,20 @@ void Network::make_nodes() {
 }
 
 /// What leaves the node leaves by a filtering entry.
-void Network::tell_ways() {
-  traffic_.tell_separations(*simulation_);
+void Network::trace_paths() {
+  traffic_.trace_copies(*simulation_);
   unfold_latencies();
   for (std::uint32_t n = 0; n < plan_.nodes.size(); ++n) {
     if (plan_.nodes[n].forwards())
-      bridges_[n]->tell_arrivals();
+      bridges_[n]->trace_arrivals();
     else if (hosts_[n])
-      hosts_[n]->tell_arrivals();
+      hosts_[n]->trace_arrivals();
   }
 }
 
-bool Network::chooses_ports(NodeIndex node) const { return plan_.nodes[node.value].forwards() || ports(node).size() > 1; }
+bool Network::chooses_ports(NodeIndex node) const {
+  return plan_.nodes[node.value].forwards() || ports(node).size() > 1;
+}
 
 sim::Duration Network::fixed_delay_of(NodeIndex node) const {
   const NodePlan& plan = plan_.nodes[node.value];
@@ -375,13 +340,17 @@ sim::ComponentId Network::component_of(NodeIndex node) const {
   return plan_.nodes[node.value].forwards() ? bridges_[node.value]->id() : hosts_[node.value]->id();
 }
 
-Attention& Network::attention_of(NodeIndex node) const { return plan_.nodes[node.value].forwards() ? bridges_[node.value]->attention() : hosts_[node.value]->attention(); }
+ReceptionChecks& Network::reception_checks_of(NodeIndex node) const {
+  return plan_.nodes[node.value].forwards() ? bridges_[node.value]->reception_checks()
+                                            : hosts_[node.value]->reception_checks();
+}
 
 void Network::connect(const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {
   TAKT_CHECK(link.rate.has_exact_octet_time(), "a link's octet lasts a whole number of picoseconds");
-  mutable_ports(from.node)[from.port].connect(*simulation_, component_of(from.node), shared_, port_config_of(from), clock_of(from.node),
-                                              link.rate.octet_time(),
-                                              {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node), fixed_delay_of(to.node), &attention_of(to.node)},
+  mutable_ports(from.node)[from.port].connect(*simulation_, component_of(from.node), shared_, port_config_of(from),
+                                              clock_of(from.node), link.rate.octet_time(),
+                                              {component_of(to.node), to.port, link.delay + fixed_delay_of(to.node),
+                                               fixed_delay_of(to.node), &reception_checks_of(to.node)},
                                               mutable_ports(to.node)[to.port].link());
   if (from.gates_may_stick) mutable_ports(from.node)[from.port].expect_stuck_gates();
 }
@@ -390,21 +359,18 @@ const PortConfig& Network::port_config_of(const LinkPlan::End& end) const {
   return plan_.port_configs[end.port_config.value_or(plan_.nodes[end.node.value].port_config)];
 }
 
-ConfigChange Network::request_gates(NodeIndex node, std::uint16_t port, const GateConfig& gates) {
-  return mutable_ports(node)[port].request_gates(*simulation_, gates);
-}
-
 HostOutput& Network::output_of_host(NodeIndex host) {
   TAKT_CHECK(outputs_[host.value] != nullptr, "a host that sends has a link");
   return *outputs_[host.value];
 }
 
-Process& Network::add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application, std::optional<std::uint32_t> turns,
-                              std::vector<std::optional<std::uint32_t>> threads) {
+Process& Network::add_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application,
+                              std::optional<std::uint32_t> turns, std::vector<std::optional<std::uint32_t>> threads) {
   return make_process(host, name, std::move(application), {turns, std::move(threads), {}}, turns);
 }
 
-Process& Network::make_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application, Process::CpuThreads threads, std::optional<std::uint32_t> woken) {
+Process& Network::make_process(NodeIndex host, std::string_view name, std::unique_ptr<Application> application,
+                               Process::CpuThreads threads, std::optional<std::uint32_t> woken) {
   const NodePlan& node = plan_.nodes[host.value];
   const OsLatency* latency = &plan_.os_latencies[node.os_latency];
   if (woken && node.cpu->threads[*woken].wake_up) {
@@ -412,8 +378,8 @@ Process& Network::make_process(NodeIndex host, std::string_view name, std::uniqu
     thread_latencies_.back()->wake_up = *node.cpu->threads[*woken].wake_up;
     latency = thread_latencies_.back().get();
   }
-  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), clock_of(host), *latency, node.name + "/" + std::string(name),
-                                                 std::move(application)));
+  processes_.push_back(std::make_unique<Process>(*simulation_, traffic_, output_of_host(host), clock_of(host), *latency,
+                                                 node.name + "/" + std::string(name), std::move(application)));
   simulation_->group(processes_.back()->id(), component_of(host));
   if (node.cpu) {
     threads.transmit = node.cpu->transmit;
@@ -429,7 +395,9 @@ void Network::add_loads() {
     if (!plan_.nodes[n].cpu) continue;
     const std::vector<CpuThreadPlan>& threads = plan_.nodes[n].cpu->threads;
     for (std::uint32_t t = 0; t < threads.size(); ++t)
-      if (threads[t].load) make_process(NodeIndex{n}, "cpu/" + threads[t].name, std::make_unique<CpuLoad>(*threads[t].load, 0), {{}, {t}, {}}, t);
+      if (threads[t].load)
+        make_process(NodeIndex{n}, "cpu/" + threads[t].name, std::make_unique<CpuLoad>(*threads[t].load, 0),
+                     {{}, {t}, {}}, t);
   }
 }
 
@@ -452,7 +420,7 @@ void Network::keep_arrivals(StreamIndex stream) {
 }
 
 void Network::start() {
-  find_sole_senders();
+  find_single_talker_ports();
   for (std::uint32_t n = 0; n < clocks_.size(); ++n)
     if (clocks_[n] && has(NodeIndex{n})) clocks_[n]->start(*simulation_);
   for (std::uint32_t n = 0; n < stations_.size(); ++n)
@@ -464,7 +432,8 @@ void Network::start() {
 }
 
 void Network::cross(const LinkPlan::End& from, const LinkPlan::End& to) {
-  if (has(from.node) && !has(to.node)) mutable_ports(from.node)[from.port].link().cross(*share_.exchange, share_.part_of(to.node));
+  if (has(from.node) && !has(to.node))
+    mutable_ports(from.node)[from.port].link().cross(*share_.exchange, share_.part_of(to.node));
 }
 
 std::vector<NodeIndex> Network::nodes_of_components() const {

@@ -1,12 +1,11 @@
 // Links that are joined to one where the bypass relay of a station that is down joins its cables, and parted again.
-#include "models/network.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "models/network.hpp"
 #include "sim/check.hpp"
 
 namespace takt::models {
@@ -17,7 +16,8 @@ void Network::set_bypass(NodeIndex node, bool joins) {
   refresh_joints();
 }
 
-/// The ports that the bypass of a node joins, over those of further nodes: nothing if a cable is cut, ends nowhere, or at a node that is down.
+/// The ports that the bypass of a node joins, over those of further nodes: nothing if a cable is cut, ends nowhere, or
+/// at a node that is down.
 std::optional<Network::Joint> Network::joint_at(NodeIndex node) const {
   Joint joint;
   joint.over.push_back(node);
@@ -28,7 +28,9 @@ std::optional<Network::Joint> Network::joint_at(NodeIndex node) const {
       const auto link = std::find_if(plan_.links.begin(), plan_.links.end(), [&](const LinkPlan& each) {
         return (each.a.node == at && each.a.port == port) || (each.b.node == at && each.b.port == port);
       });
-      if (link == plan_.links.end() || cuts_[static_cast<std::size_t>(link - plan_.links.begin())] > 0 || steps > plan_.nodes.size()) return std::nullopt;
+      if (link == plan_.links.end() || cuts_[static_cast<std::size_t>(link - plan_.links.begin())] > 0 ||
+          steps > plan_.nodes.size())
+        return std::nullopt;
       const LinkPlan::End& peer = link->a.node == at && link->a.port == port ? link->b : link->a;
       joint.delay += link->delay;
       if (!bypassed_[peer.node.value] || peer.port > 1) {
@@ -42,7 +44,9 @@ std::optional<Network::Joint> Network::joint_at(NodeIndex node) const {
     }
   }
   // Seen from either of two nodes that are bypassed together it is the same.
-  if (std::pair(joint.ends[1].end.node.value, joint.ends[1].end.port) < std::pair(joint.ends[0].end.node.value, joint.ends[0].end.port)) std::swap(joint.ends[0], joint.ends[1]);
+  if (std::pair(joint.ends[1].end.node.value, joint.ends[1].end.port) <
+      std::pair(joint.ends[0].end.node.value, joint.ends[0].end.port))
+    std::swap(joint.ends[0], joint.ends[1]);
   return joint;
 }
 
@@ -52,14 +56,17 @@ void Network::refresh_joints() {
   std::vector<Joint> wanted;
   for (std::uint32_t n = 0; n < bypassed_.size(); ++n)
     if (bypassed_[n])
-      if (const std::optional<Joint> joint = joint_at(NodeIndex{n}); joint && std::find(wanted.begin(), wanted.end(), *joint) == wanted.end()) wanted.push_back(*joint);
+      if (const std::optional<Joint> joint = joint_at(NodeIndex{n});
+          joint && std::find(wanted.begin(), wanted.end(), *joint) == wanted.end())
+        wanted.push_back(*joint);
   for (Joint& joint : joints_)
     if (std::find(wanted.begin(), wanted.end(), joint) == wanted.end()) set_joint(joint, false);
   for (Joint& joint : wanted) {
     auto known = std::find(joints_.begin(), joints_.end(), joint);
     if (known == joints_.end()) {
-      take_apart([&](const Joint& other) {
-        return std::any_of(other.ends.begin(), other.ends.end(), [&](const JoinedEnd& end) { return end == joint.ends[0] || end == joint.ends[1]; });
+      open_joints([&](const Joint& other) {
+        return std::any_of(other.ends.begin(), other.ends.end(),
+                           [&](const JoinedEnd& end) { return end == joint.ends[0] || end == joint.ends[1]; });
       });
       join(joint);
       known = joints_.insert(joints_.end(), joint);
@@ -86,7 +93,7 @@ void Network::join(Joint& joint) {
     const LinkPlan::End& end = joint.ends[side].end;
     ports[side] = &mutable_ports(end.node)[end.port];
     joint.ends[side].before = ports[side]->link().reception();
-    // What this end wants to know of headers it has told the link by which it received until now.
+    // This end has registered its interest in headers at the link by which it received until now.
     receptions[side] = ports[side]->incoming().reception();
     const sim::Duration fixed = fixed_delay_of(end.node);
     receptions[side].far_end = {component_of(end.node), end.port, joint.delay + fixed, fixed};
@@ -98,7 +105,7 @@ void Network::join(Joint& joint) {
 }
 
 /// The ends receive by their own cables again.
-void Network::take_apart(const std::function<bool(const Joint&)>& which) {
+void Network::open_joints(const std::function<bool(const Joint&)>& which) {
   std::erase_if(joints_, [&](const Joint& joint) {
     if (joint.is_up || !which(joint)) return false;
     for (const JoinedEnd& each : joint.ends) {
@@ -106,7 +113,8 @@ void Network::take_apart(const std::function<bool(const Joint&)>& which) {
       port.link().redirect(each.before);
       for (const LinkPlan& link : plan_.links)
         for (const auto& [own, other] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)})
-          if (own->node == each.end.node && own->port == each.end.port) port.receive_by(mutable_ports(other->node)[other->port].link());
+          if (own->node == each.end.node && own->port == each.end.port)
+            port.receive_by(mutable_ports(other->node)[other->port].link());
     }
     return true;
   });

@@ -28,7 +28,8 @@ PortDirectory::PortDirectory(const Network& network) {
 }
 
 std::uint32_t PortDirectory::find(PortId id) const {
-  const auto found = std::lower_bound(ports_.begin(), ports_.end(), id, [](const Port& port, PortId key) { return port.id < key; });
+  const auto found =
+      std::lower_bound(ports_.begin(), ports_.end(), id, [](const Port& port, PortId key) { return port.id < key; });
   return found != ports_.end() && found->id == id ? static_cast<std::uint32_t>(found - ports_.begin()) : none;
 }
 

@@ -22,7 +22,7 @@ class PortDirectory {
   struct Port {
     PortId id;
     NodeIndex peer;
-    sim::Duration octet_time;   ///< of its link
+    sim::Duration octet_time;  ///< of its link
     sim::ComponentId component;
   };
 

@@ -3,7 +3,8 @@
 namespace takt::sim {
 
 void check_failed(const char* condition, const char* meaning, const char* file, int line) {
-  throw InvariantBroken(std::string(file) + ":" + std::to_string(line) + ": CHECK(" + condition + ") failed: " + meaning);
+  throw InvariantBroken(std::string(file) + ":" + std::to_string(line) + ": CHECK(" + condition +
+                        ") failed: " + meaning);
 }
 
 }  // namespace takt::sim

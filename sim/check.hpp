@@ -1,7 +1,8 @@
 // CHECK: invariants of takt itself. They stay on in release builds.
 //
 // A user's mistake is never a CHECK (it is a diagnostic, see json/diagnostics.hpp). A failed CHECK means that takt is
-// wrong; it unwinds to the loop of the simulation, which adds simulated time, event and seed, and to main, which exits 3.
+// wrong; it unwinds to the loop of the simulation, which adds simulated time, event and seed, and to main, which
+// exits 3.
 #pragma once
 
 #include <stdexcept>
@@ -21,8 +22,8 @@ class InvariantBroken : public std::logic_error {
 }  // namespace takt::sim
 
 /// CHECK(condition, "what is broken when it does not hold")
-#define TAKT_CHECK(condition, meaning)                                                     \
-  do {                                                                                     \
-    if (!(condition)) [[unlikely]]                                                         \
-      ::takt::sim::check_failed(#condition, meaning, __FILE__, __LINE__);                  \
+#define TAKT_CHECK(condition, meaning)                                    \
+  do {                                                                    \
+    if (!(condition)) [[unlikely]]                                        \
+      ::takt::sim::check_failed(#condition, meaning, __FILE__, __LINE__); \
   } while (false)

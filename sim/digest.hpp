@@ -18,7 +18,8 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Both halves of a product in one word: each bit of either factor reaches every bit, for the price of one multiplication.
+/// Both halves of a product in one word: each bit of either factor reaches every bit, for the price of one
+/// multiplication.
 constexpr std::uint64_t folded_product(std::uint64_t a, std::uint64_t b) {
   const uint128 product = static_cast<uint128>(a) * b;
   return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
@@ -46,7 +47,7 @@ constexpr std::uint64_t hash_of(std::span<const std::byte> octets) {
   Content hash(octets.size());
   std::uint64_t word = 0;
   std::size_t at = 0;
-  for (; octets.size() - at >= 8; at += 8) {   // spelt out, so that it becomes one load
+  for (; octets.size() - at >= 8; at += 8) {  // spelt out, so that it becomes one load
     const std::byte* const from = octets.data() + at;
     const auto octet = [&](std::size_t i) { return static_cast<std::uint64_t>(from[i]) << (56 - 8 * i); };
     word = octet(0) | octet(1) | octet(2) | octet(3) | octet(4) | octet(5) | octet(6) | octet(7);
@@ -63,13 +64,17 @@ constexpr std::uint64_t hash_of(std::span<const std::byte> octets) {
 class Digest {
  public:
   /// `kind` names the sort of record, `who` the place, `what` the content.
-  void add(std::uint32_t kind, std::uint64_t who, TrueTime when, std::uint64_t what) { add(key_of(kind, who), when, what); }
+  void add(std::uint32_t kind, std::uint64_t who, TrueTime when, std::uint64_t what) {
+    add(key_of(kind, who), when, what);
+  }
 
-  /// What records of one sort from one place share: who writes many of them makes it once.
+  /// The part that records of one kind and place share. Made once by writers of many records.
   struct Key {
     std::uint64_t hash = 0;
   };
-  static constexpr Key key_of(std::uint32_t kind, std::uint64_t who) { return {mix64(who + 0x9E3779B97F4A7C15ULL * (kind + 1))}; }
+  static constexpr Key key_of(std::uint32_t kind, std::uint64_t who) {
+    return {mix64(who + 0x9E3779B97F4A7C15ULL * (kind + 1))};
+  }
   void add(Key key, TrueTime when, std::uint64_t what) {
     sum_ += folded_product(key.hash ^ static_cast<std::uint64_t>(when.ps()), what ^ 0xD1B54A32D192ED03ULL);
   }

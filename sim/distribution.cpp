@@ -24,7 +24,8 @@ Duration rounded(double ps) {
 
 double as_double(Duration d) { return static_cast<double>(d.ps()); }
 
-/// The probability of a result below z, z <= 0, of the standard normal distribution: the greatest number whose quantile lies below. Positive numbers are in the order of their bits.
+/// The probability of a result below z, z <= 0, of the standard normal distribution: the greatest number whose quantile
+/// lies below. Positive numbers are in the order of their bits.
 double lower_tail(double z) {
   if (z < normal_quantile(least_probability)) return 0;
   std::uint64_t below = std::bit_cast<std::uint64_t>(least_probability);
@@ -67,7 +68,8 @@ Distribution Distribution::normal(Duration mean, Duration standard_deviation) {
 }
 
 Distribution Distribution::truncated_normal(Duration mean, Duration standard_deviation, Duration low, Duration high) {
-  TAKT_CHECK(low <= mean && mean <= high && low < high && standard_deviation > Duration(), "a normal distribution is cut off on both sides of its mean");
+  TAKT_CHECK(low <= mean && mean <= high && low < high && standard_deviation > Duration(),
+             "a normal distribution is cut off on both sides of its mean");
   Distribution d = normal(mean, standard_deviation);
   d.kind_ = Kind::truncated_normal;
   d.below_ = lower_tail(as_double(low - mean) / as_double(standard_deviation));
@@ -80,7 +82,8 @@ Distribution Distribution::truncated_normal(Duration mean, Duration standard_dev
 Duration Distribution::truncated_mean() const {
   TAKT_CHECK(kind_ == Kind::truncated_normal, "the mean of a truncated normal distribution");
   const double spread = as_double(spread_);
-  const double shift = density(as_double(floor_ - location_) / spread) - density(as_double(ceiling_ - location_) / spread);
+  const double shift =
+      density(as_double(floor_ - location_) / spread) - density(as_double(ceiling_ - location_) / spread);
   return std::clamp(rounded(as_double(location_) + spread * shift / shape_), floor_, ceiling_);
 }
 
@@ -145,7 +148,8 @@ void Distribution::make_table() {
   table_.clear();
   const Distribution& from = kind_ == Kind::mixture ? parts_[0] : *this;
   if (!from.equal_weights_) return;
-  for (const Point& point : from.points_) table_.push_back(std::clamp(std::clamp(point.value, from.floor_, from.ceiling_), floor_, ceiling_));
+  for (const Point& point : from.points_)
+    table_.push_back(std::clamp(std::clamp(point.value, from.floor_, from.ceiling_), floor_, ceiling_));
 }
 
 Duration Distribution::draw_slowly(RandomStream& stream) const {
@@ -154,7 +158,8 @@ Duration Distribution::draw_slowly(RandomStream& stream) const {
 }
 
 Duration Distribution::clamped_draw(const Distribution& part, RandomStream& stream) const {
-  const Duration raw = part.equal_weights_ ? part.points_[stream.below(part.points_.size())].value : part.draw_raw(stream);
+  const Duration raw =
+      part.equal_weights_ ? part.points_[stream.below(part.points_.size())].value : part.draw_raw(stream);
   return std::clamp(std::clamp(raw, part.floor_, part.ceiling_), floor_, ceiling_);
 }
 
@@ -168,7 +173,9 @@ Duration Distribution::draw_raw(RandomStream& stream) const {
     case Kind::normal:
       return rounded(as_double(location_) + as_double(spread_) * normal_quantile(stream.unit()));
     case Kind::truncated_normal:
-      return rounded(as_double(location_) + as_double(spread_) * normal_quantile(std::clamp(below_ + shape_ * stream.unit(), least_probability, greatest_probability)));
+      return rounded(as_double(location_) +
+                     as_double(spread_) * normal_quantile(std::clamp(below_ + shape_ * stream.unit(), least_probability,
+                                                                     greatest_probability)));
     case Kind::exponential:
       return rounded(-as_double(location_) * exact_log(stream.unit()));
     case Kind::weibull:
@@ -192,7 +199,9 @@ Duration Distribution::least() const {
     case Kind::constant:
       return std::clamp(location_, floor_, ceiling_);
     case Kind::empirical:
-      return std::clamp(std::min_element(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.value < b.value; })->value,
+      return std::clamp(std::min_element(points_.begin(), points_.end(),
+                                         [](const Point& a, const Point& b) { return a.value < b.value; })
+                            ->value,
                         floor_, ceiling_);
     case Kind::mixture:
       return std::clamp(std::min(parts_[0].least(), parts_[1].least()), floor_, ceiling_);
@@ -206,7 +215,9 @@ Duration Distribution::greatest() const {
     case Kind::constant:
       return std::clamp(location_, floor_, ceiling_);
     case Kind::empirical:
-      return std::clamp(std::max_element(points_.begin(), points_.end(), [](const Point& a, const Point& b) { return a.value < b.value; })->value,
+      return std::clamp(std::max_element(points_.begin(), points_.end(),
+                                         [](const Point& a, const Point& b) { return a.value < b.value; })
+                            ->value,
                         floor_, ceiling_);
     case Kind::mixture:
       return std::clamp(std::max(parts_[0].greatest(), parts_[1].greatest()), floor_, ceiling_);

@@ -9,8 +9,8 @@
 
 namespace takt::sim {
 
-/// A distribution from which durations are drawn, each with one draw of the stream (two for a mixture). Results are whole
-/// picoseconds, never below `floor` and never above `ceiling`.
+/// A distribution from which durations are drawn, each with one draw of the stream (two for a mixture). Results are
+/// whole picoseconds, never below `floor` and never above `ceiling`.
 class Distribution {
  public:
   /// One point of an empirical table: `value` with relative frequency `weight`.
@@ -24,8 +24,8 @@ class Distribution {
   /// Uniform over [low, high], both ends included.
   static Distribution uniform(Duration low, Duration high);
   static Distribution normal(Duration mean, Duration standard_deviation);
-  /// That of a normal distribution among its results in [low, high]: cut off there, whereas clamped() heaps what lies beyond onto the ends.
-  /// Precondition: low <= mean <= high, low < high, standard_deviation > 0.
+  /// That of a normal distribution among its results in [low, high]: cut off there, whereas clamped() heaps what lies
+  /// beyond onto the ends. Precondition: low <= mean <= high, low < high, standard_deviation > 0.
   static Distribution truncated_normal(Duration mean, Duration standard_deviation, Duration low, Duration high);
   static Distribution exponential(Duration mean);
   /// Weibull with scale and shape k > 0: P(X > x) = exp(-(x/scale)^k).
@@ -42,8 +42,10 @@ class Distribution {
 
   Duration draw(RandomStream& stream) const {
     // A measured table is what hosts draw from most.
-    if (table_.empty()) [[unlikely]] return draw_slowly(stream);
-    if (kind_ == Kind::mixture && stream.below(billion) < tail_parts_per_billion_) [[unlikely]] return clamped_draw(parts_[1], stream);
+    if (table_.empty()) [[unlikely]]
+      return draw_slowly(stream);
+    if (kind_ == Kind::mixture && stream.below(billion) < tail_parts_per_billion_) [[unlikely]]
+      return clamped_draw(parts_[1], stream);
     return table_[stream.below(table_.size())];
   }
   /// What draws of a truncated normal distribution come to on average.
@@ -55,7 +57,17 @@ class Distribution {
   Duration greatest() const;
 
  private:
-  enum class Kind : std::uint8_t { constant, uniform, normal, truncated_normal, exponential, weibull, log_normal, empirical, mixture };
+  enum class Kind : std::uint8_t {
+    constant,
+    uniform,
+    normal,
+    truncated_normal,
+    exponential,
+    weibull,
+    log_normal,
+    empirical,
+    mixture
+  };
 
   static constexpr std::uint64_t billion = 1'000'000'000;
 
@@ -67,16 +79,16 @@ class Distribution {
 
   Kind kind_ = Kind::constant;
   std::uint32_t tail_parts_per_billion_ = 0;
-  Duration location_;  // constant value, low end, mean, scale or median
-  Duration spread_;    // high end or standard deviation
-  double shape_ = 1.0;   // truncated: the probability of a result in the interval
-  double below_ = 0.0;   // truncated: that of one below it
+  Duration location_;   // constant value, low end, mean, scale or median
+  Duration spread_;     // high end or standard deviation
+  double shape_ = 1.0;  // truncated: the probability of a result in the interval
+  double below_ = 0.0;  // truncated: that of one below it
   Duration floor_ = Duration::from_ps(0);
   Duration ceiling_ = Duration::max();
-  bool equal_weights_ = false;          // empirical: every weight is 1, so the draw is the index
-  std::vector<Duration> table_;         // of equal weights, also of the body of a mixture: the results, clamped
-  std::vector<Point> points_;           // empirical: weights made cumulative
-  std::vector<Distribution> parts_;     // mixture: body, tail
+  bool equal_weights_ = false;       // empirical: every weight is 1, so the draw is the index
+  std::vector<Duration> table_;      // of equal weights, also of the body of a mixture: the results, clamped
+  std::vector<Point> points_;        // empirical: weights made cumulative
+  std::vector<Distribution> parts_;  // mixture: body, tail
 };
 
 }  // namespace takt::sim

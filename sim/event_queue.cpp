@@ -44,13 +44,14 @@ void NearEvents::push_long(const Event& event) {
   find_rest_time();
 }
 
-Event NearEvents::take_of_rest() {
+Event NearEvents::pop_rest() {
   if (heap_.empty()) {
     const Event event = batch_.back();
     batch_.pop_back();
     return event;
   }
-  if (!batch_.empty() && (batch_.back().time < heap_.first_time() || (batch_.back().time == heap_.first_time() && batch_.back() < heap_.first()))) {
+  if (!batch_.empty() && (batch_.back().time < heap_.first_time() ||
+                          (batch_.back().time == heap_.first_time() && batch_.back() < heap_.first()))) {
     const Event event = batch_.back();
     batch_.pop_back();
     return event;
@@ -77,23 +78,24 @@ void NearEvents::refill() {
 
 /// Batch and heap have events of one time, or the heap the earlier ones.
 void NearEvents::refill_one_by_one() {
-  std::array<Event, refilled> next;   // the first one at the end
+  std::array<Event, refilled> next;  // the first one at the end
   std::uint32_t taken = 0;
-  while (count_ + taken < refilled && has_rest()) next[refilled - ++taken] = take_of_rest();
+  while (count_ + taken < refilled && has_rest()) next[refilled - ++taken] = pop_rest();
   move_up(taken);
   std::copy(next.end() - taken, next.end(), sorted_.begin());
   find_rest_time();
 }
 
 /// The way of nearly all in a large network calls nothing, so that it saves no registers.
-void EventQueue::push_elsewhere(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+void EventQueue::push_to_calendar(TrueTime time, std::uint64_t order, std::uint64_t serial_kind,
+                                  std::uint64_t argument) {
   if (time < near_end_ || time >= horizon_ || free_ == none) [[unlikely]]
-    push_seldom(time, order, serial_kind, argument);
+    push_slow(time, order, serial_kind, argument);
   else
     put_into_bucket(time, order, serial_kind, argument);
 }
 
-void EventQueue::push_seldom(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+void EventQueue::push_slow(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
   const Event event(time, order, serial_kind, argument);
   if (time >= near_end_) {
     push_far(event);
@@ -112,7 +114,8 @@ void EventQueue::push_far(const Event& event) {
 }
 
 /// Precondition: a slot is free.
-inline void EventQueue::put_into_bucket(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument) {
+inline void EventQueue::put_into_bucket(TrueTime time, std::uint64_t order, std::uint64_t serial_kind,
+                                        std::uint64_t argument) {
   const std::uint32_t slot = free_;
   const std::size_t bucket = bucket_of(time);
   std::uint32_t& next = next_[slot];
@@ -150,7 +153,8 @@ std::size_t EventQueue::next_occupied(std::size_t from) const {
   return word * 64 + static_cast<std::size_t>(std::countr_zero(bits));
 }
 
-/// Few events are left in the near array: fetches more, of the rest or of the next bucket. False: there is no event at all.
+/// Few events are left in the near array: fetches more, of the rest or of the next bucket. False: there is no event at
+/// all.
 bool EventQueue::top_up() {
   low_water_ = NearEvents::few;
   if (near_.has_rest()) {
@@ -175,13 +179,14 @@ bool EventQueue::top_up() {
   return true;
 }
 
-/// Moves the events of the bucket so many buckets ahead, the next one that has any, into the near part, where there is no rest.
+/// Moves the events of the bucket so many buckets ahead, the next one that has any, into the near part, where there is
+/// no rest.
 void EventQueue::advance(std::size_t ahead) {
   if (waiting() > 4 * size_when_spread_) {
     spread(widest_log2);
     return;
   }
-  if (in_buckets_ == 0)   // everything lies beyond the horizon: go straight to the bucket of the first such event
+  if (in_buckets_ == 0)  // everything lies beyond the horizon: go straight to the bucket of the first such event
     near_end_ = TrueTime::from_ps(beyond_.first_time().ps() >> width_log2_ << width_log2_);
   else
     near_end_ = buckets_after(near_end_, ahead);
@@ -214,7 +219,7 @@ void EventQueue::load_bucket(std::size_t bucket, TrueTime start) {
     count = scratch_.size();
     near_.load(scratch_, sorter_);
   }
-  next_[last] = free_;   // all its slots at once
+  next_[last] = free_;  // all its slots at once
   free_ = buckets_[bucket];
   buckets_[bucket] = none;
   occupied_[bucket / 64] &= ~(1ULL << (bucket % 64));
@@ -231,7 +236,8 @@ void EventQueue::tune(std::uint64_t popped) {
   if (is_crowded) spread(width_log2_ - static_cast<int>(std::bit_width(mean / wanted_in_bucket - 1)));
 }
 
-/// Lays the events out anew with buckets so narrow that the near part stays small, at any rate not wider than `widest`. Called when it is crowded.
+/// Lays the events out anew with buckets so narrow that the near part stays small, and not wider than `widest`. Called
+/// when it is crowded.
 void EventQueue::spread(int widest) {
   std::vector<Event>& all = scratch_;
   all.clear();
@@ -246,16 +252,22 @@ void EventQueue::spread(int widest) {
   free_ = none;
   in_buckets_ = 0;
 
-  // The nearest events say how densely they lie: far time-outs, and what comes a cycle later, must not widen the buckets.
+  // The nearest events say how densely they lie: far time-outs, and what comes a cycle later, must not widen the
+  // buckets.
   std::sort(all.begin(), all.end());
   const std::size_t near = all.size() / 8;
   const std::int64_t start = all.front().time.ps();
   const std::int64_t spacing = (all[near].time.ps() - start) / static_cast<std::int64_t>(near + 1);
-  const int width = std::clamp(std::min(widest, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(2 * spacing)))), narrowest_log2, widest_log2);
-  // Narrower buckets reach as far as those before did, if that does not take too many: twice as many as there are events do in any case.
+  const int width =
+      std::clamp(std::min(widest, static_cast<int>(std::bit_width(static_cast<std::uint64_t>(2 * spacing)))),
+                 narrowest_log2, widest_log2);
+  // Narrower buckets reach as far as those before did, if that does not take too many: twice as many as there are
+  // events do in any case.
   constexpr std::size_t most_to_reach = std::size_t{1} << 17;
-  const std::size_t as_far = widest == widest_log2 ? 0 : std::min(buckets_.size() << (width_log2_ - width), most_to_reach);
-  const std::size_t bucket_count = std::clamp<std::size_t>(std::max(std::bit_ceil(2 * all.size()), as_far), 1024, std::size_t{1} << 20);
+  const std::size_t as_far =
+      widest == widest_log2 ? 0 : std::min(buckets_.size() << (width_log2_ - width), most_to_reach);
+  const std::size_t bucket_count =
+      std::clamp<std::size_t>(std::max(std::bit_ceil(2 * all.size()), as_far), 1024, std::size_t{1} << 20);
   width_log2_ = width;
   buckets_.assign(bucket_count, none);
   occupied_.assign(bucket_count / 64, 0);

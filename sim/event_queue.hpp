@@ -3,8 +3,8 @@
 // The events of the near future lie in a short sorted array, where a pop is a decrement and a push moves the few events
 // that come before it. From a few dozen events on, later ones wait unsorted in a calendar of equally wide buckets, and
 // those beyond the calendar in a heap; so the cost of an event hardly grows with the population. Many events at one
-// instant cannot be spread over buckets: they are sorted once, and the array is filled from them. The order never depends on the layout:
-// every event passes through the near part, which holds all events before `near_end_`.
+// instant cannot be spread over buckets: they are sorted once, and the array is filled from them. The order never
+// depends on the layout: every event passes through the near part, which holds all events before `near_end_`.
 #pragma once
 
 #include <array>
@@ -108,11 +108,12 @@ class EventHeap {
   bool hole_ = false;
 };
 
-/// The near part: a short sorted array of the very next events, and behind them the rest, of which a part is sorted once and what comes later is in a heap.
+/// The near part: a short sorted array of the very next events, and behind them the rest, of which a part is sorted
+/// once and what comes later is in a heap.
 class NearEvents {
  public:
   static constexpr std::uint32_t most_sorted = 64;
-  /// While fewer than so many are in the array, more are fetched if there are any close by: who looks ahead sees them.
+  /// Below this many events in the array more are fetched, if any are near, so that prefetching sees them.
   static constexpr std::uint32_t few = 8;
 
   bool empty() const { return count_ == 0 && !has_rest(); }
@@ -120,7 +121,8 @@ class NearEvents {
   std::uint32_t sorted_count() const { return count_; }
   std::size_t size() const { return count_ + batch_.size() + heap_.size(); }
 
-  /// The event that will be popped after `ahead` others, if that is known without work. Behind it in memory are those that are popped before.
+  /// The event that will be popped after `ahead` others, if that is known without work. Behind it in memory are those
+  /// that are popped before.
   const Event* upcoming(std::uint32_t ahead) const { return ahead < count_ ? &sorted_[count_ - 1 - ahead] : nullptr; }
   /// The first event, or null.
   const Event* first() {
@@ -137,21 +139,24 @@ class NearEvents {
   void drop_first() { --count_; }
   [[gnu::always_inline]] Event pop() { return sorted_[--count_]; }
 
-  /// Sorts the event in, where it comes before the rest and the array has room for it; otherwise it does nothing and returns false.
+  /// Sorts the event in, where it comes before the rest and the array has room for it; otherwise it does nothing and
+  /// returns false.
   [[gnu::always_inline]] bool push_if_short(const Event& event) {
-    if (count_ >= most_sorted || event.time >= rest_time_) [[unlikely]] return false;
+    if (count_ >= most_sorted || event.time >= rest_time_) [[unlikely]]
+      return false;
     insert(event);
     return true;
   }
 
   void push(const Event& event) {
-    if (!push_if_short(event)) [[unlikely]] push_long(event);
+    if (!push_if_short(event)) [[unlikely]]
+      push_long(event);
   }
 
   /// Moves events of the rest, if there are any, into the array. Precondition: sorted_count() is less than `few`.
   void refill();
-  /// Takes over events in any order, none of which comes before those in the array. Preconditions: there is no rest, and sorted_count() is less than `few`. `events` is
-  /// empty afterwards.
+  /// Takes over events in any order, none of which comes before those in the array. Preconditions: there is no rest,
+  /// and sorted_count() is less than `few`. `events` is empty afterwards.
   void load(std::vector<Event>& events, EventSorter& sorter);
   /// The same for at most most_few_events of a span of time (sort_few()).
   void load_few(std::span<const Event* const> events, TrueTime start, int span_log2);
@@ -166,7 +171,7 @@ class NearEvents {
   }
 
  private:
-  static constexpr std::uint32_t refilled = 48;   // leaves room for what is pushed meanwhile
+  static constexpr std::uint32_t refilled = 48;  // leaves room for what is pushed meanwhile
   static_assert(most_few_events + few <= most_sorted);
 
   [[gnu::always_inline]] void insert(const Event& event) {
@@ -183,7 +188,7 @@ class NearEvents {
   /// Makes room for so many later events at the front of the array.
   void move_up(std::uint32_t places);
   /// The first event of the rest. Precondition: has_rest().
-  Event take_of_rest();
+  Event pop_rest();
   void find_rest_time();
 
   std::uint32_t count_ = 0;
@@ -218,21 +223,25 @@ class EventQueue {
   /// Removes and returns the first event. Precondition: first_time() has just been asked and was not never.
   Event pop() { return near_.pop(); }
 
-  /// The first event if it is of this instant, exactly; null otherwise. Precondition: an event of `now` has been popped last.
+  /// The first event if it is of this instant, exactly; null otherwise. Precondition: an event of `now` has been popped
+  /// last.
   const Event* next_at(TrueTime now) {
-    const Event* const event = near_.first();   // what is not in the near part is later
+    const Event* const event = near_.first();  // what is not in the near part is later
     return event != nullptr && event->time == now ? event : nullptr;
   }
 
-  /// The event that will probably be popped after `ahead` others, or null; that after `ahead` - 1 is behind it, and so on. A hint: a push may come in between.
+  /// The event that will probably be popped after `ahead` others, or null; that after `ahead` - 1 is behind it, and so
+  /// on. A hint: a push may come in between.
   const Event* upcoming(std::uint32_t ahead) const { return near_.upcoming(ahead); }
 
   void push(const Event& event) {
-    if (event.time < near_end_ && near_.push_if_short(event)) [[likely]] return;
-    push_elsewhere(event.time, event.order, event.serial_kind, event.argument);
+    if (event.time < near_end_ && near_.push_if_short(event)) [[likely]]
+      return;
+    push_to_calendar(event.time, event.order, event.serial_kind, event.argument);
   }
 
-  /// So many events were popped since it was called last: buckets that hold too much are made narrower. When they were laid out, few components may have been at work.
+  /// So many events were popped since it was called last: buckets that hold too much are made narrower. When they were
+  /// laid out, few components may have been at work.
   void tune(std::uint64_t popped);
 
  private:
@@ -242,11 +251,12 @@ class EventQueue {
   };
   static constexpr std::uint32_t none = 0xFFFF'FFFF;
   static constexpr std::size_t near_only_limit = 64;
-  /// Widths of buckets, as powers of two ps. What many components do at one instant says nothing of how densely events lie; 66 ns are less than a short frame takes, so that
-  /// a bucket gets hardly anything while it is worked on.
+  /// Widths of buckets, as powers of two ps. What many components do at one instant says nothing of how densely events
+  /// lie; 66 ns are less than a short frame takes, so that a bucket gets hardly anything while it is worked on.
   static constexpr int narrowest_log2 = 16;
   static constexpr int widest_log2 = 40;
-  /// How many events should come and go while a bucket is worked on, and from how many on, of so many events, the calendar is laid out anew with narrower ones.
+  /// How many events should come and go while a bucket is worked on, and from how many on, of so many events, the
+  /// calendar is laid out anew with narrower ones.
   static constexpr std::uint64_t wanted_in_bucket = 12;
   static constexpr std::uint64_t most_in_bucket = 28;
   static constexpr std::uint64_t observed = 20'000;
@@ -254,9 +264,11 @@ class EventQueue {
   static constexpr std::size_t close_by = 4;
   static_assert(near_only_limit >= NearEvents::most_sorted, "a near part that is a sorted array is never crowded");
 
-  /// The way of what does not fit into the sorted array. It takes words, since a reference would keep every event in memory.
-  void push_elsewhere(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
-  [[gnu::noinline]] void push_seldom(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
+  /// The way of what does not fit into the sorted array. It takes words, since a reference would keep every event in
+  /// memory.
+  void push_to_calendar(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
+  [[gnu::noinline]] void push_slow(TrueTime time, std::uint64_t order, std::uint64_t serial_kind,
+                                   std::uint64_t argument);
   void push_far(const Event& event);
   void put_into_bucket(TrueTime time, std::uint64_t order, std::uint64_t serial_kind, std::uint64_t argument);
   void make_slots();
@@ -282,20 +294,20 @@ class EventQueue {
   }
 
   NearEvents near_;
-  TrueTime near_end_ = TrueTime::never();   // events before it are in near_
-  TrueTime horizon_ = TrueTime::never();    // events from it on are in beyond_
-  std::uint32_t low_water_ = 1;             // fewer sorted events in near_ are a reason to look for more
+  TrueTime near_end_ = TrueTime::never();  // events before it are in near_
+  TrueTime horizon_ = TrueTime::never();   // events from it on are in beyond_
+  std::uint32_t low_water_ = 1;            // fewer sorted events in near_ are a reason to look for more
   std::uint32_t free_ = none;
-  int width_log2_ = 0;                      // a bucket spans 2^width_log2_ ps
-  std::size_t crowded_ = near_only_limit;   // size of near_ at which the calendar is (re)built
+  int width_log2_ = 0;                     // a bucket spans 2^width_log2_ ps
+  std::size_t crowded_ = near_only_limit;  // size of near_ at which the calendar is (re)built
   std::size_t in_buckets_ = 0;
   std::size_t size_when_spread_ = 0;
-  std::uint64_t popped_ = 0;                // since it was tuned last
-  std::uint64_t loads_ = 0;                 // buckets that were loaded since then
-  std::vector<std::uint32_t> buckets_;      // head of each bucket's list; a power of two of them
-  std::vector<std::uint64_t> occupied_;     // one bit a bucket
+  std::uint64_t popped_ = 0;             // since it was tuned last
+  std::uint64_t loads_ = 0;              // buckets that were loaded since then
+  std::vector<std::uint32_t> buckets_;   // head of each bucket's list; a power of two of them
+  std::vector<std::uint64_t> occupied_;  // one bit a bucket
   std::vector<Waiting> pool_;
-  std::vector<std::uint32_t> next_;         // of each slot of the pool: the next one of its bucket, or of those that are free
+  std::vector<std::uint32_t> next_;  // of each slot of the pool: the next one of its bucket, or of those that are free
   EventHeap beyond_;
   EventSorter sorter_;
   std::vector<Event> scratch_;  // of spread() and advance(), kept so that it allocates once

@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto later_first = [](const Event& a, const Event& b) { return b < a; };
 
-/// The same order for what differs in source or serial only: seldom more than two.
+/// The same order for events that differ in source or serial only. Rarely more than two.
 void sort_the_last_first(Event* begin, Event* end) {
   constexpr std::ptrdiff_t many = 16;
   if (end - begin > many) {
@@ -28,20 +28,22 @@ void sort_the_last_first(Event* begin, Event* end) {
 }  // namespace
 
 void sort_few(std::span<const Event* const> events, TrueTime start, int span_log2, Event* sorted) {
-  using Lane = std::int16_t;   // eight of them in a register of the plainest processor
+  using Lane = std::int16_t;  // eight of them in a register of the plainest processor
   constexpr std::size_t lanes = 8;
   constexpr int lane_bits = 16;
   const std::size_t count = events.size();
   const int shift = std::max(0, span_log2 - lane_bits);
   std::array<Lane, most_few_events> key;
   std::array<Lane, most_few_events> rank;
-  const std::size_t padded = (count + lanes - 1) / lanes * lanes;   // what is behind the last one is not looked at
-  for (std::size_t i = 0; i < count; ++i) key[i] = static_cast<Lane>(((events[i]->time - start).ps() >> shift) + std::numeric_limits<Lane>::min());
+  const std::size_t padded = (count + lanes - 1) / lanes * lanes;  // what is behind the last one is not looked at
+  for (std::size_t i = 0; i < count; ++i)
+    key[i] = static_cast<Lane>(((events[i]->time - start).ps() >> shift) + std::numeric_limits<Lane>::min());
   for (std::size_t i = count; i < padded; ++i) key[i] = 0;
   for (std::size_t i = 0; i < padded; ++i) rank[i] = 0;
   for (std::size_t j = 0; j < count; ++j) {
     const Lane other = key[j];
-    for (std::size_t i = 0; i < padded; ++i) rank[i] = static_cast<Lane>(rank[i] + (other > key[i] ? 1 : 0));   // later ones come first
+    for (std::size_t i = 0; i < padded; ++i)
+      rank[i] = static_cast<Lane>(rank[i] + (other > key[i] ? 1 : 0));  // later ones come first
   }
   std::array<std::uint8_t, most_few_events> taken{};
   unsigned most_alike = 0;
@@ -54,15 +56,15 @@ void sort_few(std::span<const Event* const> events, TrueTime start, int span_log
   if (most_alike != 0) sort_the_last_first(sorted, sorted + count);
 }
 
-/// Bits that never order two events wrongly: of the time those that differ among the events, and behind them, as far as there is room, those of phase and target.
-/// Returns how many.
+/// Bits that never order two events wrongly: of the time those that differ among the events, and behind them, as far as
+/// there is room, those of phase and target. Returns how many.
 int EventSorter::find_keys(std::span<const Event> events) {
   std::uint64_t any_time = 0;
   std::uint64_t every_time = ~0ULL;
   std::uint64_t any_order = 0;
   std::uint64_t every_order = ~0ULL;
   for (const Event& event : events) {
-    const auto time = static_cast<std::uint64_t>(event.time.ps());   // of events never negative
+    const auto time = static_cast<std::uint64_t>(event.time.ps());  // of events never negative
     any_time |= time;
     every_time &= time;
     any_order |= event.order;
@@ -93,12 +95,13 @@ void EventSorter::sort_by_keys(int bits) {
   const auto digits = static_cast<std::size_t>((bits + digit_bits - 1) / digit_bits);
   for (auto& counts : counts_) counts.fill(0);
   for (const Item item : items_)
-    for (std::size_t digit = 0; digit < most_digits; ++digit) ++counts_[digit][item >> (32 + digit_bits * digit) & (values - 1)];
+    for (std::size_t digit = 0; digit < most_digits; ++digit)
+      ++counts_[digit][item >> (32 + digit_bits * digit) & (values - 1)];
   other_.resize(items_.size());
   for (std::size_t digit = 0; digit < digits; ++digit) {
     const auto shift = 32 + digit_bits * digit;
     auto& counts = counts_[digit];
-    if (counts[items_.front() >> shift & (values - 1)] == items_.size()) continue;   // all have the same
+    if (counts[items_.front() >> shift & (values - 1)] == items_.size()) continue;  // all have the same
     std::uint32_t before = 0;
     for (std::uint32_t& count : counts) before += std::exchange(count, before);
     Item* const other = other_.data();
@@ -114,7 +117,7 @@ void EventSorter::sort(std::vector<Event>& events) {
   sorted_.resize(events.size());
   Event* const end = sorted_.data() + sorted_.size();
   Event* at = end;
-  Event* alike = end;   // behind the last of those that have one key
+  Event* alike = end;  // behind the last of those that have one key
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (i > 0 && items_[i] >> 32 != items_[i - 1] >> 32) {
       if (alike - at > 1) sort_the_last_first(at, alike);

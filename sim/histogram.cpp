@@ -18,7 +18,8 @@ void Histogram::add(const Histogram& other) {
   for (std::size_t octave = 0; octave < octaves_.size(); ++octave) {
     if (!other.octaves_[octave]) continue;
     if (!octaves_[octave]) add_octave(octave);
-    for (std::size_t bucket = 0; bucket < sub_buckets; ++bucket) (*octaves_[octave])[bucket] += (*other.octaves_[octave])[bucket];
+    for (std::size_t bucket = 0; bucket < sub_buckets; ++bucket)
+      (*octaves_[octave])[bucket] += (*other.octaves_[octave])[bucket];
   }
 }
 
@@ -47,7 +48,8 @@ Duration Histogram::standard_deviation() const {
   // sum (x - mean)^2 = sum x^2 - 2 mean sum x + n mean^2 = sum x^2 - mean (sum + rest)
   const uint128 scatter = sum_of_squares_ - static_cast<uint128>(mean) * static_cast<uint128>(sum_ + rest);
   const double variance = static_cast<double>(scatter) / static_cast<double>(count_) -
-                          (static_cast<double>(rest) / static_cast<double>(count_)) * (static_cast<double>(rest) / static_cast<double>(count_));
+                          (static_cast<double>(rest) / static_cast<double>(count_)) *
+                              (static_cast<double>(rest) / static_cast<double>(count_));
   return Duration::from_ps(static_cast<std::int64_t>(std::sqrt(std::max(0.0, variance)) + 0.5));
 }
 

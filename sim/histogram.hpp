@@ -9,8 +9,8 @@
 
 namespace takt::sim {
 
-/// Counts, extrema and moments of non-negative durations. Minimum, maximum, mean and standard deviation are exact (integer
-/// sums); a percentile is the upper edge of its bucket, at most 1/128 above the true value, and never outside
+/// Counts, extrema and moments of non-negative durations. Minimum, maximum, mean and standard deviation are exact
+/// (integer sums); a percentile is the upper edge of its bucket, at most 1/128 above the true value, and never outside
 /// [minimum, maximum]. The buckets of an octave are allocated when the first sample falls into it.
 class Histogram {
  public:
@@ -25,7 +25,8 @@ class Histogram {
     if (ps < least_) least_ = ps;
     if (ps > greatest_) greatest_ = ps;
     const Place place = place_of(static_cast<std::uint64_t>(ps));
-    if (!octaves_[place.octave]) [[unlikely]] add_octave(place.octave);
+    if (!octaves_[place.octave]) [[unlikely]]
+      add_octave(place.octave);
     recent_ = &(*octaves_[place.octave])[place.bucket];
     ++*recent_;
   }
@@ -70,7 +71,8 @@ class Histogram {
   static Place place_of(std::uint64_t ps) {
     if (ps < sub_buckets) return {0, static_cast<std::size_t>(ps)};
     const int top = 63 - __builtin_clzll(ps);
-    return {static_cast<std::size_t>(top - sub_bits + 1), static_cast<std::size_t>(ps >> (top - sub_bits)) - sub_buckets};
+    return {static_cast<std::size_t>(top - sub_bits + 1),
+            static_cast<std::size_t>(ps >> (top - sub_bits)) - sub_buckets};
   }
   void add_octave(std::size_t octave);
   static Duration lower_edge(Place place);
@@ -81,7 +83,7 @@ class Histogram {
   std::int64_t greatest_ = 0;
   std::uint64_t* recent_ = nullptr;  // the bucket that was counted last
   int128 sum_ = 0;
-  uint128 sum_of_squares_ = 0;       // up to here it is one cache line
+  uint128 sum_of_squares_ = 0;  // up to here it is one cache line
   std::array<std::unique_ptr<Octave>, 64 - sub_bits + 1> octaves_;
 };
 

@@ -8,7 +8,8 @@ namespace takt::sim {
 /// std::stable_sort allocates, even for one element. Quadratic, and linear for what is in order.
 template <class Range, class Less>
 void insertion_sort(Range& range, Less less) {
-  for (auto next = range.begin(); next != range.end(); ++next) std::rotate(std::upper_bound(range.begin(), next, *next, less), next, next + 1);
+  for (auto next = range.begin(); next != range.end(); ++next)
+    std::rotate(std::upper_bound(range.begin(), next, *next, less), next, next + 1);
 }
 
 }  // namespace takt::sim

@@ -1,4 +1,5 @@
-// Octets that somebody else owns, and numbers in them in both byte orders: one bounded reader and one bounded writer for all protocols.
+// Octets that somebody else owns, and numbers in them in both byte orders: one bounded reader and one bounded writer
+// for all protocols.
 #pragma once
 
 #include <bit>
@@ -16,7 +17,7 @@ namespace takt::sim {
 using OctetSpan = std::span<const std::byte>;
 
 enum class ByteOrder : std::uint8_t { big, little };
-/// A byte order that is known when the program is compiled costs nothing; a ByteOrder itself is one that each message tells.
+/// A byte order known at compile time costs nothing. A ByteOrder itself is for messages that announce theirs.
 using BigEndian = std::integral_constant<ByteOrder, ByteOrder::big>;
 using LittleEndian = std::integral_constant<ByteOrder, ByteOrder::little>;
 
@@ -29,7 +30,9 @@ using UnsignedOfSize = std::conditional_t<
     Size == 1, std::uint8_t,
     std::conditional_t<Size == 2, std::uint16_t, std::conditional_t<Size == 4, std::uint32_t, std::uint64_t>>>;
 
-constexpr bool is_native(ByteOrder order) { return (order == ByteOrder::little) == (std::endian::native == std::endian::little); }
+constexpr bool is_native(ByteOrder order) {
+  return (order == ByteOrder::little) == (std::endian::native == std::endian::little);
+}
 }  // namespace detail
 
 /// The number that begins at `at`; sizeof(T) octets must be there.
@@ -63,15 +66,16 @@ inline void store(std::byte* at, T number, ByteOrder order) {
   }
 }
 
-constexpr std::size_t rounded_up(std::size_t size, std::size_t alignment) { return (size + alignment - 1) / alignment * alignment; }
+constexpr std::size_t rounded_up(std::size_t size, std::size_t alignment) {
+  return (size + alignment - 1) / alignment * alignment;
+}
 
-/// Reads from the front, never past the end; allocates nothing. What is not there reads as 0 or as nothing and makes failed() true for good.
+/// Reads from the front, never past the end; allocates nothing. What is not there reads as 0 or as nothing and makes
+/// failed() true for good.
 template <class Order>
 class OctetReader {
  public:
-  explicit OctetReader(OctetSpan source)
-    requires std::is_empty_v<Order>
-      : OctetReader(source, Order()) {}
+  explicit OctetReader(OctetSpan source) requires std::is_empty_v<Order> : OctetReader(source, Order()) {}
   OctetReader(OctetSpan source, Order order) : source_(source), order_(order) {}
 
   template <Number T>
@@ -118,13 +122,12 @@ class OctetReader {
   bool failed_ = false;
 };
 
-/// Writes from the front; allocates nothing. What does not fit is not written and makes overflowed() true until it is taken back.
+/// Writes from the front; allocates nothing. What does not fit is not written and makes overflowed() true until it is
+/// taken back.
 template <class Order>
 class OctetWriter {
  public:
-  explicit OctetWriter(std::span<std::byte> target)
-    requires std::is_empty_v<Order>
-      : OctetWriter(target, Order()) {}
+  explicit OctetWriter(std::span<std::byte> target) requires std::is_empty_v<Order> : OctetWriter(target, Order()) {}
   OctetWriter(std::span<std::byte> target, Order order) : target_(target), order_(order) {}
 
   template <Number T>
@@ -144,7 +147,9 @@ class OctetWriter {
     used_ += count;
   }
   /// Zeros up to a multiple of `alignment`, counted from `origin`.
-  void align(std::size_t alignment, std::size_t origin = 0) { put_zeros(rounded_up(used_ - origin, alignment) - (used_ - origin)); }
+  void align(std::size_t alignment, std::size_t origin = 0) {
+    put_zeros(rounded_up(used_ - origin, alignment) - (used_ - origin));
+  }
 
   /// Overwrites a number that was written before.
   template <Number T>

@@ -10,8 +10,8 @@
 
 namespace takt::sim {
 
-/// A stream of random numbers (xoshiro256++ by Blackman and Vigna) that is a function of (seed, component path, purpose).
-/// Adding a component moves no other component's numbers, so variants of a study share their luck.
+/// A stream of random numbers (xoshiro256++ by Blackman and Vigna) that is a function of (seed, component path,
+/// purpose). Adding a component moves no other component's numbers, so variants of a study share their luck.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view path, std::string_view purpose);
@@ -36,7 +36,8 @@ class RandomStream {
   std::uint64_t below(std::uint64_t bound) {
     // Lemire's method: the high half of a product is uniform once the few biased low halves are rejected.
     const uint128 product = static_cast<uint128>(next()) * bound;
-    if (static_cast<std::uint64_t>(product) > bound) [[likely]] return static_cast<std::uint64_t>(product >> 64);
+    if (static_cast<std::uint64_t>(product) > bound) [[likely]]
+      return static_cast<std::uint64_t>(product >> 64);
     return below_rejecting(product, bound);
   }
 

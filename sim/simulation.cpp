@@ -38,7 +38,8 @@ constexpr std::uint64_t unscramble(std::uint64_t x, std::uint64_t key) {
 template <class Change>
 std::uint64_t with_ids(std::uint64_t order, std::uint64_t key, Change&& change) {
   constexpr std::uint64_t ids = Event::id_mask << Event::node_shift | Event::id_mask;
-  return (order & ~ids) | change(order >> Event::node_shift & Event::id_mask, key >> 30) << Event::node_shift | change(order & Event::id_mask, key);
+  return (order & ~ids) | change(order >> Event::node_shift & Event::id_mask, key >> 30) << Event::node_shift |
+         change(order & Event::id_mask, key);
 }
 
 }  // namespace
@@ -85,8 +86,10 @@ inline void Simulation::look_ahead() const {
     components[third.target().index]->prefetch(third, Component::Ahead::one_event);
     return;
   }
-  if (const Event* const event = queue_.upcoming(nearer)) components[event->target().index]->prefetch(*event, Component::Ahead::two_events);
-  if (const Event* const event = queue_.upcoming(nearest)) components[event->target().index]->prefetch(*event, Component::Ahead::one_event);
+  if (const Event* const event = queue_.upcoming(nearer))
+    components[event->target().index]->prefetch(*event, Component::Ahead::two_events);
+  if (const Event* const event = queue_.upcoming(nearest))
+    components[event->target().index]->prefetch(*event, Component::Ahead::one_event);
 }
 
 template <bool is_shuffled, bool looks_ahead>
@@ -120,7 +123,8 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
       } else {
         components_[event_.target().index]->handle(*this, event_);
       }
-      if (!deciding_.empty()) [[unlikely]] decide_all();
+      if (!deciding_.empty()) [[unlikely]]
+        decide_all();
     }
   } catch (const InvariantBroken& broken) {
     rethrow_with_context(broken);
@@ -133,7 +137,7 @@ bool Simulation::loop(TrueTime until, std::uint64_t max_events) {
 void Simulation::decide_all() {
   const Event* const next = queue_.next_at(now());
   if (next != nullptr && Event::place_of(next->order ^ event_.order) == 0) return;
-event_.order = Event::with_phase(event_.order, Phase::decision) & ~Event::is_own;
+  event_.order = Event::with_phase(event_.order, Phase::decision) & ~Event::is_own;
   // A component may ask again while it decides; the list may therefore grow.
   while (decided_ < deciding_.size()) deciding_[decided_++].component->decide(*this);
   deciding_.clear();
@@ -157,7 +161,8 @@ void Simulation::push_checked(TrueTime time, std::uint64_t order, std::uint64_t 
   if (time == now() && Event::place_of(order ^ at_work()) != 0) {
     const std::uint64_t stage = order >> Event::stage_shift;
     const std::uint64_t stage_at_work = event_.order >> Event::stage_shift;
-    TAKT_CHECK(stage > stage_at_work || stage_at_work == 0, "nothing of one node reaches another one at the same instant");
+    TAKT_CHECK(stage > stage_at_work || stage_at_work == 0,
+               "nothing of one node reaches another one at the same instant");
   }
   if (tie_shuffle_ != 0)
     push_shuffled(time, order, serial_kind, argument);

@@ -24,8 +24,14 @@ class Duration {
 
   constexpr auto operator<=>(const Duration&) const = default;
   constexpr Duration operator-() const { return Duration(-ps_); }
-  constexpr Duration& operator+=(Duration other) { ps_ += other.ps_; return *this; }
-  constexpr Duration& operator-=(Duration other) { ps_ -= other.ps_; return *this; }
+  constexpr Duration& operator+=(Duration other) {
+    ps_ += other.ps_;
+    return *this;
+  }
+  constexpr Duration& operator-=(Duration other) {
+    ps_ -= other.ps_;
+    return *this;
+  }
   friend constexpr Duration operator+(Duration a, Duration b) { return Duration(a.ps_ + b.ps_); }
   friend constexpr Duration operator-(Duration a, Duration b) { return Duration(a.ps_ - b.ps_); }
   friend constexpr Duration operator*(Duration a, std::int64_t n) { return Duration(a.ps_ * n); }
@@ -56,7 +62,10 @@ class Instant {
   }
 
   constexpr auto operator<=>(const Instant&) const = default;
-  constexpr Instant& operator+=(Duration d) { ps_ += d.ps(); return *this; }
+  constexpr Instant& operator+=(Duration d) {
+    ps_ += d.ps();
+    return *this;
+  }
   friend constexpr Instant operator+(Instant t, Duration d) { return Instant(t.ps_ + d.ps()); }
   friend constexpr Instant operator-(Instant t, Duration d) { return Instant(t.ps_ - d.ps()); }
   friend constexpr Duration operator-(Instant a, Instant b) { return Duration::from_ps(a.ps_ - b.ps_); }
@@ -76,10 +85,18 @@ using PtpTime = Instant<PtpScale>;
 
 inline namespace literals {
 constexpr Duration operator""_ps(unsigned long long n) { return Duration::from_ps(static_cast<std::int64_t>(n)); }
-constexpr Duration operator""_ns(unsigned long long n) { return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000); }
-constexpr Duration operator""_us(unsigned long long n) { return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000'000); }
-constexpr Duration operator""_ms(unsigned long long n) { return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000'000'000); }
-constexpr Duration operator""_s(unsigned long long n) { return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000'000'000'000); }
+constexpr Duration operator""_ns(unsigned long long n) {
+  return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000);
+}
+constexpr Duration operator""_us(unsigned long long n) {
+  return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000'000);
+}
+constexpr Duration operator""_ms(unsigned long long n) {
+  return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000'000'000);
+}
+constexpr Duration operator""_s(unsigned long long n) {
+  return Duration::from_ps(static_cast<std::int64_t>(n) * 1'000'000'000'000);
+}
 }  // namespace literals
 
 }  // namespace takt::sim

@@ -5,9 +5,9 @@
 
 namespace takt::sim {
 
-/// One cancellable, movable time-out of a component. Moving it to a later time costs no event: the pending event notices
-/// when it comes due that the deadline has moved, and goes there. So a time-out that every message restarts keeps one
-/// event in the queue. The owner calls fired() when an event of the timer's kind arrives.
+/// One cancellable, movable time-out of a component. Moving it to a later time costs no event: the pending event
+/// notices when it comes due that the deadline has moved, and goes there. So a time-out that every message restarts
+/// keeps one event in the queue. The owner calls fired() when an event of the timer's kind arrives.
 class Timer {
  public:
   /// Events carry `kind`, go to `target` in `phase`, and are scheduled under the source that is given with each call.

@@ -6,10 +6,11 @@ namespace takt::models {
 namespace {
 constexpr auto leaves_now = static_cast<sim::EventKind>(NodeEvent::first_free);
 constexpr auto stored_for_host = static_cast<sim::EventKind>(static_cast<unsigned>(NodeEvent::first_free) + 1);
-}
+}  // namespace
 
 template <bool is_last>
-inline void Bridge::route_to(sim::Simulation& simulation, FrameIndex index, const Frame& frame, std::uint16_t from, std::uint32_t port) {
+inline void Bridge::route_to(sim::Simulation& simulation, FrameIndex index, const Frame& frame, std::uint16_t from,
+                             std::uint32_t port) {
   if (port == FilteringDatabase::not_at_once || port == from) [[unlikely]]
     forward(simulation, index, from, nullptr);
   else if constexpr (is_last)
@@ -18,12 +19,13 @@ inline void Bridge::route_to(sim::Simulation& simulation, FrameIndex index, cons
     ports_[port].offer_last(simulation, index, frame, from);
 }
 
-/// A frame that has passed whatever comes before the filtering database. Of one that is on its stream's route the port is remembered. All calls are
-/// tail calls, so that no registers are saved.
+/// A frame that has passed whatever comes before the filtering database. Of one that is on its stream's route the port
+/// is remembered. All calls are tail calls, so that no registers are saved.
 template <bool is_last>
 inline void Bridge::route(sim::Simulation& simulation, FrameIndex index, Frame& frame, std::uint16_t from) {
   if (routes_ == nullptr || !frame.on_route || frame.hop >= Routes::most_hops) {
-    route_to<is_last>(simulation, index, frame, from, filtering_database_.port_at_once(frame.vlan, frame.destination));
+    route_to<is_last>(simulation, index, frame, from,
+                      filtering_database_.single_egress_port(frame.vlan, frame.destination));
   } else if (const std::uint32_t port = routes_->at(frame) - first_port_; port < port_count_) [[likely]] {
     ++frame.hop;
     route_to<is_last>(simulation, index, frame, from, port);
@@ -48,18 +50,20 @@ void Bridge::handle(sim::Simulation& simulation, const sim::Event& event) {
   const ArrivalArgument arrival = ArrivalArgument::unpack(event.argument);
   if (event.kind() != static_cast<sim::EventKind>(NodeEvent::frame_arrived)) [[unlikely]]
     handle_internal(simulation, event, arrival);
-  else if (arrival.flags == 0 && !attention_.is_needed()) [[likely]]
+  else if (arrival.flags == 0 && !reception_checks_.is_needed()) [[likely]]
     route<false>(simulation, arrival.frame, traffic_->frame(arrival.frame), arrival.port);
-  else if (only_polices_ && simulation.is_last() && !attention_.asks_links())
+  else if (only_polices_ && simulation.is_last() && !reception_checks_.has_cancelled_arrivals())
     pass_chain(simulation, arrival);
   else
     receive(simulation, arrival);
 }
 
-/// Most frames through a bridge with a chain, at the last event of the instant: sound, and they stay as they are. If not, nothing has changed, and receive() follows.
+/// Most frames through a bridge with a chain, at the last event of the instant: sound, and they stay as they are. If
+/// not, nothing has changed, and receive() follows.
 void Bridge::pass_chain(sim::Simulation& simulation, ArrivalArgument arrival) {
   Frame& frame = traffic_->frame(arrival.frame);
-  const bool is_uncertain = arrival.flags != 0 && ((arrival.flags & ArrivalArgument::header_only) != 0 || !ports_[arrival.port].incoming().surely_delivers());
+  const bool is_uncertain = arrival.flags != 0 && ((arrival.flags & ArrivalArgument::header_only) != 0 ||
+                                                   !ports_[arrival.port].incoming().is_loss_free());
   if (is_uncertain || frame.bad_fcs || frame.link_local || (frame.marked && frame.references != 1)) [[unlikely]] {
     receive(simulation, arrival);
     return;
@@ -75,12 +79,16 @@ void Bridge::pass_chain(sim::Simulation& simulation, ArrivalArgument arrival) {
 void Bridge::receive(sim::Simulation& simulation, ArrivalArgument arrival) {
   FrameIndex frame = arrival.frame;
   Link& link = ports_[arrival.port].incoming();
-  if ((arrival.is_uncertain() || attention_.asks_links()) && !link.receive(simulation, frame, arrival.flags)) return;
+  if ((arrival.is_uncertain() || reception_checks_.has_cancelled_arrivals()) &&
+      !link.receive(simulation, frame, arrival.flags))
+    return;
   if (tells_arrivals_ && simulation.trace() != nullptr)
     simulation.trace()->record(
         {simulation.now(), static_cast<std::uint32_t>(Occurrence::arrived), id_, frame.value,
          ArrivalDetail{arrival.port, link.sender(), (arrival.flags & ArrivalArgument::header_only) != 0}.pack()});
-  if (arrival.flags == 0 && !attention_.is_demanded()) {   // a plain bridge, to which the arrival of a frame that was cut has been announced
+  if (arrival.flags == 0 &&
+      !reception_checks_
+           .is_always_required()) {  // a plain bridge, to which the arrival of a frame that was cut has been announced
     route<false>(simulation, frame, traffic_->frame(frame), arrival.port);
   } else if ((arrival.flags & ArrivalArgument::header_only) == 0) {
     accept(simulation, frame, arrival.port, nullptr);
@@ -92,7 +100,7 @@ void Bridge::receive(sim::Simulation& simulation, ArrivalArgument arrival) {
 
 void Bridge::handle_internal(sim::Simulation& simulation, const sim::Event& event, ArrivalArgument arrival) {
   if (event.kind() == stored_for_host)
-    take_stored(simulation, arrival);
+    handle_stored_frame(simulation, arrival);
   else
     leave(simulation, event.kind(), arrival.port);
 }
@@ -134,7 +142,8 @@ void Bridge::accept(sim::Simulation& simulation, FrameIndex frame, std::uint16_t
   if (chain_ == nullptr) {
     pass_through(simulation, std::span(&frame, 1), from, header);
   } else if (simulation.is_last()) {
-    pass_through(simulation, chain_->pass(simulation, {frame, from, simulation.now() - forwarding_delay_}), from, header);
+    pass_through(simulation, chain_->pass(simulation, {frame, from, simulation.now() - forwarding_delay_}), from,
+                 header);
   } else {
     if (arrived_.empty()) simulation.decide_later(id_, sim::Decision::ingress);
     arrived_.push_back({frame, from, header != nullptr, header != nullptr ? *header : Header{}});
@@ -144,12 +153,15 @@ void Bridge::accept(sim::Simulation& simulation, FrameIndex frame, std::uint16_t
 void Bridge::decide(sim::Simulation& simulation) {
   sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) { return a.port < b.port; });
   for (const Arrived& arrived : arrived_)
-    pass_through(simulation, chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}), arrived.port, arrived.only_header ? &arrived.header : nullptr);
+    pass_through(simulation,
+                 chain_->pass(simulation, {arrived.frame, arrived.port, simulation.now() - forwarding_delay_}),
+                 arrived.port, arrived.only_header ? &arrived.header : nullptr);
   arrived_.clear();
 }
 
 /// What has come in by one arrival goes on, at once or when its random time is over.
-void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from, const Header* header) {
+void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameIndex> frames, std::uint16_t from,
+                          const Header* header) {
   if (jitter_ == nullptr) {
     if (frames.size() == 1 && header == nullptr && !untags_ && !traffic_->frame(frames[0]).link_local) [[likely]] {
       route<false>(simulation, frames[0], traffic_->frame(frames[0]), from);
@@ -159,7 +171,9 @@ void Bridge::pass_through(sim::Simulation& simulation, std::span<const FrameInde
     return;
   }
   TAKT_CHECK(header == nullptr, "a bridge with jitter cuts nothing through");
-  if (!frames.empty()) simulation.schedule(source_, jitter_->enter(from, simulation.now(), frames), sim::Phase::arrival, id_, leaves_now, ArrivalArgument::pack(frames[0], from));
+  if (!frames.empty())
+    simulation.schedule(source_, jitter_->enter(from, simulation.now(), frames), sim::Phase::arrival, id_, leaves_now,
+                        ArrivalArgument::pack(frames[0], from));
 }
 
 void Bridge::send(sim::Simulation& simulation, FrameIndex frame, std::uint32_t sender) {
@@ -180,16 +194,18 @@ void Bridge::forward(sim::Simulation& simulation, FrameIndex frame, std::uint32_
   if (!entry.found())
     forward_to_many(simulation, frame, rank, {}, header);
   else
-    forward_to_many(simulation, frame, rank, entry.is_one_port() ? std::span(&one, 1) : filtering_database_.ports_of(entry), header);
+    forward_to_many(simulation, frame, rank,
+                    entry.is_one_port() ? std::span(&one, 1) : filtering_database_.ports_of(entry), header);
 }
 
-void Bridge::forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::span<const std::uint16_t> egress,
-                             const Header* header) {
+void Bridge::forward_to_many(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank,
+                             std::span<const std::uint16_t> egress, const Header* header) {
   // The last port gets the frame itself, so that nobody looks at a record that has been released.
   std::uint16_t last = 0;
   bool found = false;
   for (const std::uint16_t port : egress) {
-    TAKT_CHECK(port < port_count_ || (port == internal_port && host_ != nullptr), "a filtering entry names a port of its bridge");
+    TAKT_CHECK(port < port_count_ || (port == internal_port && host_ != nullptr),
+               "a filtering entry names a port of its bridge");
     if (port == rank || (port == internal_port && rank >= rank_of_own(0))) continue;
     if (found) {
       traffic_->copy(frame);
@@ -204,7 +220,8 @@ void Bridge::forward_to_many(sim::Simulation& simulation, FrameIndex frame, std:
     traffic_->drop(frame, DropReason::no_filtering_entry, id_, simulation);
 }
 
-void Bridge::hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::uint16_t number, const Header* header) {
+void Bridge::hand_over(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, std::uint16_t number,
+                       const Header* header) {
   if (number == internal_port) {
     hand_to_host(simulation, frame, static_cast<std::uint16_t>(rank), header);
     return;
@@ -227,10 +244,11 @@ void Bridge::hand_to_host(sim::Simulation& simulation, FrameIndex frame, std::ui
     return;
   }
   header->link->passed_on(simulation.now(), frame, traffic_->frame(frame), header->stored);
-  simulation.schedule(source_, header->stored, sim::Phase::arrival, id_, stored_for_host, ArrivalArgument::pack(frame, from));
+  simulation.schedule(source_, header->stored, sim::Phase::arrival, id_, stored_for_host,
+                      ArrivalArgument::pack(frame, from));
 }
 
-void Bridge::take_stored(sim::Simulation& simulation, ArrivalArgument arrival) {
+void Bridge::handle_stored_frame(sim::Simulation& simulation, ArrivalArgument arrival) {
   if (traffic_->frame(arrival.frame).bad_fcs)
     traffic_->drop(arrival.frame, DropReason::bad_fcs, id_, simulation);
   else

@@ -25,7 +25,8 @@ void FilteringDatabase::make_set(std::uint64_t& word, std::vector<std::uint16_t>
 }
 
 void FilteringDatabase::add(VlanId vlan, AddressIndex address, std::uint16_t port) {
-  TAKT_CHECK(port < (1u << 15) && !address.is_none() && vlan < 4095, "a filtering entry for a port, an address and a VLAN that exist");
+  TAKT_CHECK(port < (1u << 15) && !address.is_none() && vlan < 4095,
+             "a filtering entry for a port, an address and a VLAN that exist");
   if (2 * (entries_ + 1) > words_.size()) grow();
   const std::uint64_t key = key_of(vlan, address);
   std::uint64_t& word = word_for(key);
@@ -33,7 +34,7 @@ void FilteringDatabase::add(VlanId vlan, AddressIndex address, std::uint16_t por
     ++entries_;
     word = key | port;
     if (port != internal_port) return;
-    make_set(word, {port});   // nobody finds it at once
+    make_set(word, {port});  // nobody finds it at once
     return;
   }
   const Entry entry(word);

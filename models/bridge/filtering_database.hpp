@@ -11,8 +11,8 @@
 
 namespace takt::models {
 
-/// Open addressing in one array of 8-octet words, so that a look-up touches one cache line and large networks stay in the
-/// cache. Learning is off: entries come from the topology.
+/// Open addressing in one array of 8-octet words, so that a look-up touches one cache line and large networks stay in
+/// the cache. Learning is off: entries come from the topology.
 class FilteringDatabase {
  public:
   /// What an entry says: one port, or a set of ports in ports_of().
@@ -34,7 +34,8 @@ class FilteringDatabase {
   /// Adds a port, below 2^15, to the entry of (vlan, address); adding it twice changes nothing.
   void add(VlanId vlan, AddressIndex address, std::uint16_t port);
 
-  /// Replaces the entry of (vlan, address): frames leave through these ports from now on; through none: they are dropped.
+  /// Replaces the entry of (vlan, address): frames leave through these ports from now on; through none: they are
+  /// dropped.
   void assign(VlanId vlan, AddressIndex address, std::span<const std::uint16_t> ports);
 
   Entry find(VlanId vlan, AddressIndex address) const {
@@ -44,9 +45,9 @@ class FilteringDatabase {
       if ((word & key_mask) == key || word == empty_word) return Entry(word);
     }
   }
-  /// The port of an entry that names one port and lies where it is looked for first, as nearly all do; otherwise not_at_once, and
-  /// find() must be asked.
-  std::uint32_t port_at_once(VlanId vlan, AddressIndex address) const {
+  /// The port of an entry that names one port and lies where it is looked for first, as nearly all do; otherwise
+  /// not_at_once, and find() must be asked.
+  std::uint32_t single_egress_port(VlanId vlan, AddressIndex address) const {
     const std::uint64_t key = key_of(vlan, address);
     const std::uint64_t rest = words_[home_of(key)] ^ key;  // of a word with this key: what is not key
     return rest < several ? static_cast<std::uint32_t>(rest) : not_at_once;
@@ -57,7 +58,9 @@ class FilteringDatabase {
 
   std::size_t entries() const { return entries_; }
   /// Brings the word of (vlan, address) towards the cache. Costs nothing but the instruction.
-  void prefetch(VlanId vlan, AddressIndex address) const { __builtin_prefetch(&words_[home_of(key_of(vlan, address))]); }
+  void prefetch(VlanId vlan, AddressIndex address) const {
+    __builtin_prefetch(&words_[home_of(key_of(vlan, address))]);
+  }
 
  private:
   // A word: address 32 bits, VLAN 12 bits, 4 bits of which one says "several ports", port or number of the set 16 bits.
@@ -69,7 +72,9 @@ class FilteringDatabase {
     return static_cast<std::uint64_t>(address.value) << 32 | static_cast<std::uint64_t>(vlan & 0xFFF) << 20;
   }
   /// Fibonacci hashing: the high bits of one product.
-  std::size_t home_of(std::uint64_t key) const { return static_cast<std::size_t>(((key >> 20) * 0x9E3779B97F4A7C15ULL) >> 32) & mask_; }
+  std::size_t home_of(std::uint64_t key) const {
+    return static_cast<std::size_t>(((key >> 20) * 0x9E3779B97F4A7C15ULL) >> 32) & mask_;
+  }
   std::uint64_t& word_for(std::uint64_t key);
   /// The entry becomes one of a set of ports.
   void make_set(std::uint64_t& word, std::vector<std::uint16_t> ports);

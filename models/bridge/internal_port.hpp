@@ -11,8 +11,8 @@ namespace takt::models {
 /// In filtering entries: the host of the station. No other port has this number.
 constexpr std::uint16_t internal_port = 0x7FFF;
 
-/// Frames that meet at an instant at a port go by rank: those that come by the medium have the number of their port, those that the node sends itself
-/// come behind them.
+/// Frames that meet at an instant at a port go by rank: those that come by the medium have the number of their port,
+/// those that the node sends itself come behind them.
 constexpr std::uint32_t rank_of_own(std::uint32_t sender) { return 0x1'0000 + sender; }
 
 /// Takes what a bridge forwards to its internal port.

@@ -1,4 +1,5 @@
-// By which ports the frames of each stream leave, hop by hop: what bridges have found in their filtering databases, where it is found again at once.
+// By which ports the frames of each stream leave, hop by hop: what bridges have found in their filtering databases,
+// where it is found again at once.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +10,12 @@
 
 namespace takt::models {
 
-/// In a large network each look-up in a filtering database is a cache miss; here the ports of a stream lie side by side. A bridge asks by stream and hop and believes
-/// an answer that is a port of its own: for frames on_route the port depends on bridge and stream alone. Otherwise it looks the port up and notes it.
+/// In a large network each look-up in a filtering database is a cache miss; here the ports of a stream lie side by
+/// side. A bridge asks by stream and hop and believes an answer that is a port of its own: for frames on_route the port
+/// depends on bridge and stream alone. Otherwise it looks the port up and notes it.
 class Routes {
  public:
-  static constexpr std::size_t most_hops = 64;             ///< what goes farther is looked up there
+  static constexpr std::size_t most_hops = 64;  ///< what goes farther is looked up there
   static constexpr std::uint32_t unknown = 0xFFFF'FFFF;
 
   Routes(std::size_t streams) : ports_(streams * most_hops, unknown) {}
@@ -26,7 +28,7 @@ class Routes {
   void forget() { ports_.assign(ports_.size(), unknown); }
 
  private:
-  std::vector<std::uint32_t> ports_;   // by stream, then by hop
+  std::vector<std::uint32_t> ports_;  // by stream, then by hop
 };
 
 }  // namespace takt::models

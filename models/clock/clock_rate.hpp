@@ -32,11 +32,15 @@ class RateOffset {
   /// 1 ppm = 1'000'000 parts per 10^12. Precondition: |y| <= 1.
   static constexpr RateOffset from(sim::FrequencyOffset y) {
     constexpr std::int64_t trillion = 1'000'000'000'000;
-    TAKT_CHECK(y.parts_per_trillion <= trillion && y.parts_per_trillion >= -trillion, "a clock between standstill and twice its rate");
-    return from_multiple(static_cast<std::int64_t>(divide_rounded(sim::int128{y.parts_per_trillion} << fraction_bits, trillion)));
+    TAKT_CHECK(y.parts_per_trillion <= trillion && y.parts_per_trillion >= -trillion,
+               "a clock between standstill and twice its rate");
+    return from_multiple(
+        static_cast<std::int64_t>(divide_rounded(sim::int128{y.parts_per_trillion} << fraction_bits, trillion)));
   }
   /// As 802.1AS writes it in cumulativeScaledRateOffset: a multiple of 2^-41.
-  static constexpr RateOffset from_scaled_41(std::int32_t y) { return from_multiple(std::int64_t{y} << (fraction_bits - 41)); }
+  static constexpr RateOffset from_scaled_41(std::int32_t y) {
+    return from_multiple(std::int64_t{y} << (fraction_bits - 41));
+  }
 
   constexpr std::int64_t multiple() const { return multiple_; }
   /// Rounded towards minus infinity and limited to what 32 bits hold (about +-977 ppm).
@@ -71,7 +75,8 @@ class ClockRate {
                                            : from_multiple(static_cast<std::uint64_t>(RateOffset::one + y.multiple()));
   }
   static constexpr ClockRate from_multiple(std::uint64_t of_2_to_minus_62) {
-    TAKT_CHECK(of_2_to_minus_62 > 0 && of_2_to_minus_62 <= 2 * std::uint64_t{RateOffset::one}, "a rate above 0 and up to 2");
+    TAKT_CHECK(of_2_to_minus_62 > 0 && of_2_to_minus_62 <= 2 * std::uint64_t{RateOffset::one},
+               "a rate above 0 and up to 2");
     ClockRate rate;
     rate.multiple_ = of_2_to_minus_62;
     return rate;
@@ -79,7 +84,8 @@ class ClockRate {
   /// a / b, rounded to the nearest. Precondition: 0 < a <= 2 b.
   static constexpr ClockRate ratio(sim::Duration a, sim::Duration b) {
     TAKT_CHECK(a.ps() > 0 && b.ps() > 0 && a.ps() / 2 <= b.ps(), "a ratio above 0 and up to 2");
-    return from_multiple(static_cast<std::uint64_t>(divide_rounded(sim::int128{a.ps()} << RateOffset::fraction_bits, b.ps())));
+    return from_multiple(
+        static_cast<std::uint64_t>(divide_rounded(sim::int128{a.ps()} << RateOffset::fraction_bits, b.ps())));
   }
 
   constexpr std::uint64_t multiple() const { return multiple_; }
@@ -89,12 +95,14 @@ class ClockRate {
 
   /// d * rate, rounded to the nearest picosecond.
   constexpr sim::Duration times(sim::Duration d) const {
-    return sim::Duration::from_ps(static_cast<std::int64_t>(
-        divide_rounded(sim::int128{d.ps()} * static_cast<std::int64_t>(multiple_ >> 1), sim::int128{1} << (RateOffset::fraction_bits - 1))));
+    return sim::Duration::from_ps(
+        static_cast<std::int64_t>(divide_rounded(sim::int128{d.ps()} * static_cast<std::int64_t>(multiple_ >> 1),
+                                                 sim::int128{1} << (RateOffset::fraction_bits - 1))));
   }
   /// d / rate, rounded to the nearest picosecond.
   constexpr sim::Duration divide(sim::Duration d) const {
-    return sim::Duration::from_ps(static_cast<std::int64_t>(divide_rounded(sim::int128{d.ps()} << RateOffset::fraction_bits, sim::int128{multiple_})));
+    return sim::Duration::from_ps(static_cast<std::int64_t>(
+        divide_rounded(sim::int128{d.ps()} << RateOffset::fraction_bits, sim::int128{multiple_})));
   }
   /// The product of two rates, rounded down and limited to the range of a rate.
   friend constexpr ClockRate operator*(ClockRate a, ClockRate b) {

@@ -1,7 +1,9 @@
-// When a clock shows times that come at equal distances, one after the other: by additions, for a talker asks for each frame.
+// When a clock shows times that come at equal distances, one after the other: by additions, for a talker asks for each
+// frame.
 //
-// While the clock runs at one rate, the true distance is step * 2^62 / rate = whole + part / rate, and the first instant at which it shows a time is
-// the exact one rounded up by early / rate, early < rate. Nothing is lost, however many steps are taken.
+// While the clock runs at one rate, the true distance is step * 2^62 / rate = whole + part / rate, and the first
+// instant at which it shows a time is the exact one rounded up by early / rate, early < rate. Nothing is lost, however
+// many steps are taken.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +14,7 @@
 
 namespace takt::models {
 
-/// Made by LocalClock::steps_from. A value that goes wrong when the clock changes: who keeps it listens to the clock.
+/// Made by LocalClock::steps_from. The value is stale after a change of the clock: its holder listens to the clock.
 class EqualSteps {
  public:
   /// Of no clock.
@@ -34,11 +36,11 @@ class EqualSteps {
   friend class LocalClock;
   static constexpr auto last = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
 
-  std::uint64_t time_ = 0;    // of the last time that was asked for, in ps
-  std::uint64_t whole_ = 0;   // at most the last instant
-  std::uint64_t part_ = 0;    // below rate_
-  std::uint64_t early_ = 0;   // below rate_: how much less than it does then the clock might show, in 2^-62 ps
-  std::uint64_t rate_ = 0;    // 0: not set
+  std::uint64_t time_ = 0;   // of the last time that was asked for, in ps
+  std::uint64_t whole_ = 0;  // at most the last instant
+  std::uint64_t part_ = 0;   // below rate_
+  std::uint64_t early_ = 0;  // below rate_: how much less than it does then the clock might show, in 2^-62 ps
+  std::uint64_t rate_ = 0;   // 0: not set
 };
 
 }  // namespace takt::models

@@ -25,7 +25,8 @@ sim::int128 divide_up(sim::int128 a, sim::int128 b) {
 
 }  // namespace
 
-// |rate| <= 2^63 and |time - start| < 2^64 would pass 2^127, but true times are not negative: the difference is below 2^63.
+// |rate| <= 2^63 and |time - start| < 2^64 would pass 2^127, but true times are not negative: the difference is below
+// 2^63.
 sim::LocalTime LocalClock::Segment::local_at(sim::TrueTime time) const {
   if (time == sim::TrueTime::never()) return sim::LocalTime::never();
   const sim::int128 elapsed = sim::int128{time.ps()} - start.ps();
@@ -60,7 +61,8 @@ EqualSteps LocalClock::steps_from(sim::LocalTime time, sim::Duration step) const
   steps.time_ = static_cast<std::uint64_t>(first.ps());
   steps.whole_ = static_cast<std::uint64_t>(std::min(distance / rate, largest));
   steps.part_ = static_cast<std::uint64_t>(distance % rate);
-  steps.early_ = static_cast<std::uint64_t>((sim::int128{first.ps()} - present_.start.ps()) * rate - ((sim::int128{time.ps()} << fraction_bits) - present_.local));
+  steps.early_ = static_cast<std::uint64_t>((sim::int128{first.ps()} - present_.start.ps()) * rate -
+                                            ((sim::int128{time.ps()} << fraction_bits) - present_.local));
   steps.rate_ = present_.rate.multiple();
   return steps;
 }
@@ -73,9 +75,11 @@ sim::LocalTime LocalClock::unstepped_in_segments(sim::TrueTime time) const {
 
 sim::TrueTime LocalClock::true_at_unstepped(sim::LocalTime time) const {
   if (time == sim::LocalTime::never()) return sim::TrueTime::never();
-  const sim::TrueTime in_present = present_.true_at(limited<sim::LocalTime>(sim::int128{time.ps()} + present_.stepped.ps()));
+  const sim::TrueTime in_present =
+      present_.true_at(limited<sim::LocalTime>(sim::int128{time.ps()} + present_.stepped.ps()));
   if (in_present > present_.start) return in_present;
-  return std::min(previous_.true_at(limited<sim::LocalTime>(sim::int128{time.ps()} + previous_.stepped.ps())), present_.start);
+  return std::min(previous_.true_at(limited<sim::LocalTime>(sim::int128{time.ps()} + previous_.stepped.ps())),
+                  present_.start);
 }
 
 void LocalClock::set_hardware_rate(sim::TrueTime now, ClockRate rate) {
@@ -107,7 +111,8 @@ void LocalClock::begin_segment(sim::TrueTime now, sim::Duration step) {
   next.local += sim::int128{step.ps()} << fraction_bits;
   next.rate = rate;
   next.stepped += step;
-  TAKT_CHECK(next.local >> fraction_bits < largest && next.local >> fraction_bits > smallest, "local time within its range");
+  TAKT_CHECK(next.local >> fraction_bits < largest && next.local >> fraction_bits > smallest,
+             "local time within its range");
   if (now != present_.start) previous_ = present_;  // a second change at one instant belongs to the first
   present_ = next;
   inverse_ = SegmentInverse(now, next.local, rate);

@@ -10,7 +10,8 @@ NodeClock::NodeClock(sim::Simulation& simulation, const NodeClockPlan& plan, std
 
 void NodeClock::schedule_next(sim::Simulation& simulation) {
   const sim::TrueTime next = oscillator_.next_change();
-  if (next != sim::TrueTime::never()) simulation.schedule(source_, next, sim::Phase::control, source_.id(), 0, static_cast<std::uint64_t>(next.ps()));
+  if (next != sim::TrueTime::never())
+    simulation.schedule(source_, next, sim::Phase::control, source_.id(), 0, static_cast<std::uint64_t>(next.ps()));
 }
 
 void NodeClock::handle(sim::Simulation& simulation, const sim::Event& event) {

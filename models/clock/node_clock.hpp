@@ -1,4 +1,5 @@
-// The clocks of one node: an oscillator, a free-running clock for timestamps, and the one that the node's time comes from.
+// The clocks of one node: an oscillator, a free-running clock for timestamps, and the one that the node's time comes
+// from.
 #pragma once
 
 #include <string_view>
@@ -13,7 +14,7 @@ namespace takt::models {
 struct NodeClockPlan {
   OscillatorConfig oscillator;
   TimestampUnit timestamps;
-  sim::Duration initial_offset;   ///< of the node's time from true time at the start
+  sim::Duration initial_offset;  ///< of the node's time from true time at the start
 };
 
 class NodeClock final : public sim::Component {

@@ -18,9 +18,11 @@ std::int64_t uniform(sim::RandomStream& chance, std::int64_t lowest, std::int64_
 
 }  // namespace
 
-void draw_oscillator(const OscillatorRange& range, std::uint64_t seed, std::string_view path, OscillatorConfig& config) {
+void draw_oscillator(const OscillatorRange& range, std::uint64_t seed, std::string_view path,
+                     OscillatorConfig& config) {
   sim::RandomStream chance(seed, path, "oscillator");
-  config.offset.parts_per_trillion = uniform(chance, range.lowest_offset.parts_per_trillion, range.highest_offset.parts_per_trillion);
+  config.offset.parts_per_trillion =
+      uniform(chance, range.lowest_offset.parts_per_trillion, range.highest_offset.parts_per_trillion);
   config.drift_ppt_per_second = uniform(chance, range.lowest_drift_ppt_per_second, range.highest_drift_ppt_per_second);
 }
 
@@ -28,7 +30,8 @@ Oscillator::Oscillator(OscillatorConfig config, std::uint64_t seed, std::string_
     : config_(std::move(config)), chance_(seed, path, "frequency walk") {
   TAKT_CHECK(config_.update_interval > sim::Duration(), "an update interval above zero");
   TAKT_CHECK(!config_.temperature || config_.temperature->period > sim::Duration(), "a period above zero");
-  TAKT_CHECK(config_.bound.parts_per_trillion >= 0 && config_.bound.parts_per_trillion < ps_per_second, "a clock that goes forwards");
+  TAKT_CHECK(config_.bound.parts_per_trillion >= 0 && config_.bound.parts_per_trillion < ps_per_second,
+             "a clock that goes forwards");
   TAKT_CHECK(std::is_sorted(config_.table.begin(), config_.table.end(),
                             [](const FrequencyPoint& a, const FrequencyPoint& b) { return a.time <= b.time; }),
              "points at ascending times");
@@ -41,7 +44,8 @@ void Oscillator::advance() {
   interval_start_ = next_change_;
   next_change_ = next_after(interval_start_);
   if (config_.walk) {
-    const std::int64_t step = uniform(chance_, -config_.walk->step.parts_per_trillion, config_.walk->step.parts_per_trillion);
+    const std::int64_t step =
+        uniform(chance_, -config_.walk->step.parts_per_trillion, config_.walk->step.parts_per_trillion);
     const std::int64_t bound = config_.walk->bound.parts_per_trillion;
     walk_ppt_ = std::clamp(walk_ppt_ + step, -bound, bound);
   }
@@ -82,15 +86,18 @@ std::int64_t Oscillator::smooth_ppt(sim::TrueTime time) const {
 RateOffset Oscillator::temperature_at(sim::TrueTime time) const {
   const SinusoidalFrequency& wave = *config_.temperature;
   const auto into = static_cast<sim::uint128>(time.ps() % wave.period.ps());
-  const auto turns = static_cast<std::uint64_t>((into << 64) / static_cast<sim::uint128>(wave.period.ps())) + wave.phase;
+  const auto turns =
+      static_cast<std::uint64_t>((into << 64) / static_cast<sim::uint128>(wave.period.ps())) + wave.phase;
   const std::int64_t amplitude = RateOffset::from(wave.amplitude).multiple();
-  return RateOffset::from_multiple(static_cast<std::int64_t>((sim::int128{amplitude} * fixed_sine(turns)) >> RateOffset::fraction_bits));
+  return RateOffset::from_multiple(
+      static_cast<std::int64_t>((sim::int128{amplitude} * fixed_sine(turns)) >> RateOffset::fraction_bits));
 }
 
 std::int64_t Oscillator::table_ppt(sim::TrueTime time) const {
   const std::vector<FrequencyPoint>& table = config_.table;
   if (table.empty()) return 0;
-  const auto after = std::upper_bound(table.begin(), table.end(), time, [](sim::TrueTime t, const FrequencyPoint& p) { return t < p.time; });
+  const auto after = std::upper_bound(table.begin(), table.end(), time,
+                                      [](sim::TrueTime t, const FrequencyPoint& p) { return t < p.time; });
   if (after == table.begin()) return table.front().frequency.parts_per_trillion;
   const FrequencyPoint& left = *(after - 1);
   if (after == table.end()) return left.frequency.parts_per_trillion;

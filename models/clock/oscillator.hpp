@@ -1,8 +1,9 @@
 // What a clock runs on: the frequency of an oscillator as a function of true time.
 //
-// y(t) = offset + drift * t + temperature(t) + table(t) + walk(t), relative to nominal. The frequency is constant for an update
-// interval at a time. For the smooth terms it is the value in the middle of the interval, so that a linear drift has the exact
-// phase at every boundary of an interval and within it at most drift * interval^2 / 8 (1 ppm/s and 10 ms: 12.5 ps).
+// y(t) = offset + drift * t + temperature(t) + table(t) + walk(t), relative to nominal. The frequency is constant for
+// an update interval at a time. For the smooth terms it is the value in the middle of the interval, so that a linear
+// drift has the exact phase at every boundary of an interval and within it at most drift * interval^2 / 8 (1 ppm/s and
+// 10 ms: 12.5 ps).
 #pragma once
 
 #include <cstdint>
@@ -38,11 +39,11 @@ struct FrequencyPoint {
 
 struct OscillatorConfig {
   sim::FrequencyOffset offset = {};
-  std::int64_t drift_ppt_per_second = 0;          // 1 ppm/s = 1'000'000
+  std::int64_t drift_ppt_per_second = 0;  // 1 ppm/s = 1'000'000
   std::optional<SinusoidalFrequency> temperature = {};
   std::optional<FrequencyWalk> walk = {};
-  std::vector<FrequencyPoint> table = {};              // strictly ascending times
-  sim::FrequencyOffset bound{500'000'000'000};    // |y| is limited to this
+  std::vector<FrequencyPoint> table = {};       // strictly ascending times
+  sim::FrequencyOffset bound{500'000'000'000};  // |y| is limited to this
   sim::Duration update_interval = sim::Duration::from_ps(10'000'000'000);
 
   /// True if the frequency never changes: no event is ever needed.

@@ -1,11 +1,11 @@
 // The servo: from measured offsets to the frequency (and the step) that brings a clock to its reference.
 //
-// The PI controller of linuxptp with its gain rule, kp = min(0.7 T^-0.3, 0.7/T) and ki = min(0.3 T^0.4, 0.3/T) for the sync interval
-// T, its first frequency estimate over at least 0.016/ki seconds, its thresholds and states. On a frequency ramp D it keeps a steady
-// offset of D T / ki (1 ppm/s at 125 ms: 957 ns).
+// The PI controller of linuxptp with its gain rule, kp = min(0.7 T^-0.3, 0.7/T) and ki = min(0.3 T^0.4, 0.3/T) for the
+// sync interval T, its first frequency estimate over at least 0.016/ki seconds, its thresholds and states. On a
+// frequency ramp D it keeps a steady offset of D T / ki (1 ppm/s at 125 ms: 957 ns).
 //
-// The drift-tracking variant adds an integrator for the drift itself, kd = kp ki T / 4, and so follows a ramp without offset. That
-// gain keeps the loop stable at every interval (needed: kd < kp ki T) and adds little to its noise.
+// The drift-tracking variant adds an integrator for the drift itself, kd = kp ki T / 4, and so follows a ramp without
+// offset. That gain keeps the loop stable at every interval (needed: kd < kp ki T) and adds little to its noise.
 //
 // Integers only: frequencies in 2^-62, gains in 2^-24 of that for each picosecond.
 #pragma once
@@ -35,9 +35,9 @@ struct ServoConfig {
   ServoKind kind = ServoKind::pi;
   int log_sync_interval = -3;
   sim::Duration first_step_threshold = sim::Duration::from_ps(20'000'000);  // 0: never step at first
-  sim::Duration step_threshold = {};                                             // 0: never step again
+  sim::Duration step_threshold = {};                                        // 0: never step again
   sim::FrequencyOffset highest_frequency{900'000'000'000};                  // what the clock can be trimmed by
-  sim::Duration stable_threshold = {};                                           // 0: no state locked_stable
+  sim::Duration stable_threshold = {};                                      // 0: no state locked_stable
   int stable_count = 10;
 };
 
@@ -47,7 +47,7 @@ enum class ServoState : std::uint8_t { unlocked, jump, locked, locked_stable };
 struct ServoAction {
   ServoState state = ServoState::unlocked;
   RateOffset adjustment = {};  // for LocalClock::set_adjustment
-  sim::Duration step;     // other than 0 in the state jump only
+  sim::Duration step;          // other than 0 in the state jump only
 };
 
 class Servo {
@@ -80,7 +80,7 @@ class Servo {
   std::int64_t proportional_gain_ = 0;
   std::int64_t integral_gain_ = 0;
   std::int64_t drift_gain_ = 0;
-  sim::Duration estimate_over_;     // the least time between the first two samples
+  sim::Duration estimate_over_;  // the least time between the first two samples
 
   enum class Phase : std::uint8_t { first_sample, estimating, controlling };
   Phase phase_ = Phase::first_sample;
@@ -89,9 +89,9 @@ class Servo {
   int stable_left_ = 0;
   sim::Duration first_offset_;
   sim::LocalTime first_at_;
-  RateOffset frequency_;            // linuxptp's drift
+  RateOffset frequency_;  // linuxptp's drift
   RateOffset drift_;
-  RateOffset last_;                 // what was put out last, before its sign is turned
+  RateOffset last_;  // what was put out last, before its sign is turned
 };
 
 }  // namespace takt::models

@@ -4,13 +4,18 @@
 
 namespace takt::models {
 
-CreditBasedSelection::CreditBasedSelection(const CreditBased& config, TrafficClass q, GateStates admin_gate_states, sim::DataRate port_transmit_rate)
-    : config_(&config), class_(q), rate_(port_transmit_rate),
-      credit_(CreditSlope{static_cast<std::int64_t>(config.idle_slope.bits_per_second), 1}, port_transmit_rate), gates_(admin_gate_states) {
+CreditBasedSelection::CreditBasedSelection(const CreditBased& config, TrafficClass q, GateStates admin_gate_states,
+                                           sim::DataRate port_transmit_rate)
+    : config_(&config),
+      class_(q),
+      rate_(port_transmit_rate),
+      credit_(CreditSlope{static_cast<std::int64_t>(config.idle_slope.bits_per_second), 1}, port_transmit_rate),
+      gates_(admin_gate_states) {
   if ((admin_gate_states >> q & 1) == 0) credit_.gate_closed(sim::TrueTime());
 }
 
-void CreditBasedSelection::request_change(const GateInForce& gate, sim::TrueTime now, sim::LocalTime asked, const GateSchedule::AdminConfig& admin) {
+void CreditBasedSelection::request_change(const GateInForce& gate, sim::TrueTime now, sim::LocalTime asked,
+                                          const GateSchedule::AdminConfig& admin) {
   follow_gate(gate, now);
   gates_.request_change(asked, admin);
 }
@@ -36,8 +41,8 @@ void CreditBasedSelection::set_gate(sim::TrueTime now, bool open) {
     credit_.gate_closed(now);
 }
 
-/// Tells the credit when the gate opened and closed up to `now`: one step for each change since it was last asked, but for those
-/// that find it at rest.
+/// Tells the credit when the gate opened and closed up to `now`: one step for each change since it was last asked, but
+/// for those that find it at rest.
 void CreditBasedSelection::follow_gate(const GateInForce& gate, sim::TrueTime now) {
   if (!gate.has_gates) return;
   const sim::LocalTime local = gate.clock->local_at(now);
@@ -46,9 +51,11 @@ void CreditBasedSelection::follow_gate(const GateInForce& gate, sim::TrueTime no
     static_cast<void>(gates_.is_open(class_, local));
     return;
   }
-  // A slow clock shows one time at several instants, of which true_at() is the first, and the clock may have changed since: no step goes behind what
-  // the credit knows already.
-  const auto instant = [&](sim::LocalTime time) { return std::clamp(gate.clock->true_at(time), credit_.updated(), now); };
+  // A slow clock shows one time at several instants, of which true_at() is the first, and the clock may have changed
+  // since: no step goes behind what the credit knows already.
+  const auto instant = [&](sim::LocalTime time) {
+    return std::clamp(gate.clock->true_at(time), credit_.updated(), now);
+  };
   for (;;) {
     const sim::LocalTime at = followed_;
     if (credit_.is_at_rest(instant(at))) {
@@ -56,7 +63,8 @@ void CreditBasedSelection::follow_gate(const GateInForce& gate, sim::TrueTime no
       break;
     }
     const bool open = gates_.is_open(class_, at);
-    if (open != credit_.gate_is_open()) set_gate(instant(at), open);  // a list that began to run at once has moved the gate
+    if (open != credit_.gate_is_open())
+      set_gate(instant(at), open);  // a list that began to run at once has moved the gate
     set_slope(at, instant(at));
     const sim::LocalTime toggle = open ? gates_.close_time(class_, at) : gates_.open_time(class_, at);
     if (const sim::LocalTime change = pending_change(at); change < toggle && change <= local) {

@@ -1,9 +1,10 @@
-// A cyclic list of intervals as a function of time, and how one list takes the place of another (IEEE 802.1Q clause 8.6.9).
+// A cyclic list of intervals as a function of time, and how one list takes the place of another (IEEE 802.1Q
+// clause 8.6.9).
 //
-// The standard describes three state machines: Cycle Timer, List Execute and List Config. Between two requests for a change
-// everything that they will do is known, so no machine runs here: a request lays out the time from now on as a few spans,
-// in each of which one list either repeats or runs once, and a query only asks where in its span an instant lies.
-// Transmission gates and stream gates share this file; what an entry of a list means is theirs.
+// The standard describes three state machines: Cycle Timer, List Execute and List Config. Between two requests for a
+// change everything that they will do is known, so no machine runs here: a request lays out the time from now on as a
+// few spans, in each of which one list either repeats or runs once, and a query only asks where in its span an instant
+// lies. Transmission gates and stream gates share this file; what an entry of a list means is theirs.
 #pragma once
 
 #include <algorithm>
@@ -20,29 +21,36 @@
 namespace takt::models {
 
 /// Floor and ceiling of a / b for b > 0 and any a.
-constexpr std::int64_t floor_quotient(sim::Duration a, sim::Duration b) { return a / b - (a % b < sim::Duration() ? 1 : 0); }
-constexpr std::int64_t ceil_quotient(sim::Duration a, sim::Duration b) { return a / b + (a % b > sim::Duration() ? 1 : 0); }
-/// The first start of a cycle that is no earlier than `now`: the base time itself, or that of the cycle that begins next (ConfigChangeTime, 8.6.9.1.1).
+constexpr std::int64_t floor_quotient(sim::Duration a, sim::Duration b) {
+  return a / b - (a % b < sim::Duration() ? 1 : 0);
+}
+constexpr std::int64_t ceil_quotient(sim::Duration a, sim::Duration b) {
+  return a / b + (a % b > sim::Duration() ? 1 : 0);
+}
+/// The first start of a cycle that is no earlier than `now`: the base time itself, or that of the cycle that begins
+/// next (ConfigChangeTime, 8.6.9.1.1).
 constexpr sim::LocalTime first_cycle_from(sim::LocalTime now, sim::LocalTime base_time, sim::Duration cycle) {
   return base_time < now ? base_time + cycle * ceil_quotient(now - base_time, cycle) : base_time;
 }
-/// When management asks for a list with which a device starts: at the start, or, if it is running then, so long ago that its base time had still to come.
+/// When management asks for a list with which a device starts: at the start, or, if it is running then, so long ago
+/// that its base time had still to come.
 constexpr sim::LocalTime first_request(sim::LocalTime start, sim::LocalTime base_time, bool is_running) {
   return is_running ? std::min(start, base_time) : start;
 }
 
 /// When the entries of a list begin, counted from the start of its cycle.
 ///
-/// Only the entries that begin before the end of the cycle are `executed` in a regular cycle: what lies beyond is cut off by the
-/// next CycleStart, and if all intervals together are shorter than the cycle the last entry stays (8.6.9.2). A cycle that is
-/// stretched before a change of lists goes on through all entries. An interval of zero counts as one tick of 1 ns.
+/// Only the entries that begin before the end of the cycle are `executed` in a regular cycle: what lies beyond is cut
+/// off by the next CycleStart, and if all intervals together are shorter than the cycle the last entry stays (8.6.9.2).
+/// A cycle that is stretched before a change of lists goes on through all entries. An interval of zero counts as one
+/// tick of 1 ns.
 ///
 /// Cycle times are whole picoseconds. One that is not would join where cycles are counted, in cycles_in() and in the
 /// few lines of CyclicSchedule that multiply a cycle time: the start of cycle k becomes
 /// base + floor(k * numerator * 10^12 / denominator), so that nothing accumulates.
 class CyclicIntervals {
  public:
-  /// As many as an index of 16 bits tells apart, and as devices announce (SupportedListMax).
+  /// The range of a 16-bit index, and what devices announce (SupportedListMax).
   static constexpr std::size_t entry_limit = 65'536;
   /// Longest cycle, extension and total of intervals: about 13 days. Keeps all sums within 64 bits.
   static constexpr sim::Duration longest = sim::Duration::from_ps(std::int64_t{1} << 60);
@@ -54,7 +62,8 @@ class CyclicIntervals {
     starts_.reserve(intervals.size());
     sim::Duration start;
     for (const sim::Duration interval : intervals) {
-      TAKT_CHECK(interval >= sim::Duration() && interval <= longest - start, "intervals are not negative and at most 13 days");
+      TAKT_CHECK(interval >= sim::Duration() && interval <= longest - start,
+                 "intervals are not negative and at most 13 days");
       if (start < cycle_time) ++executed_;
       starts_.push_back(start);
       start += interval == sim::Duration() ? sim::Duration::from_ps(1'000) : interval;
@@ -68,8 +77,11 @@ class CyclicIntervals {
   std::uint32_t executed() const { return executed_; }
   sim::Duration start(std::uint32_t entry) const { return starts_[entry]; }
   /// The end of an executed entry in a regular cycle.
-  sim::Duration end_in_cycle(std::uint32_t entry) const { return entry + 1 < executed_ ? starts_[entry + 1] : cycle_time_; }
-  /// The entry in force at `offset` after the start of a cycle, among the first `entries`; the first one for negative offsets.
+  sim::Duration end_in_cycle(std::uint32_t entry) const {
+    return entry + 1 < executed_ ? starts_[entry + 1] : cycle_time_;
+  }
+  /// The entry in force at `offset` after the start of a cycle, among the first `entries`; the first one for negative
+  /// offsets.
   std::uint32_t entry_at(sim::Duration offset, std::uint32_t entries) const {
     std::uint32_t low = 0;
     for (std::uint32_t size = entries; size > 1;) {
@@ -79,10 +91,12 @@ class CyclicIntervals {
     }
     return low;
   }
-  /// How many whole cycles lie in `elapsed`, rounded down. A multiplication by the reciprocal is at most two short of it.
+  /// How many whole cycles lie in `elapsed`, rounded down. A multiplication by the reciprocal is at most two short of
+  /// it.
   std::int64_t cycles_in(sim::Duration elapsed) const {
     if (elapsed < sim::Duration()) return floor_quotient(elapsed, cycle_time_);
-    auto cycles = static_cast<std::int64_t>(static_cast<sim::uint128>(static_cast<std::uint64_t>(elapsed.ps())) * inverse_ >> 64);
+    auto cycles =
+        static_cast<std::int64_t>(static_cast<sim::uint128>(static_cast<std::uint64_t>(elapsed.ps())) * inverse_ >> 64);
     while (elapsed - cycle_time_ * cycles >= cycle_time_) ++cycles;
     return cycles;
   }
@@ -102,10 +116,11 @@ struct ConfigChange {
 
 /// Which list is in force when. List is a type with `const CyclicIntervals& intervals() const`.
 ///
-/// Time is that of the node's own synchronised clock. `now` does not decrease from call to call; if a clock is set back all the
-/// same, the span in force is continued backwards. Within one instant the order is List Config, Cycle Timer, List Execute. A list
-/// whose time has come is installed before a request of that instant is looked at; if the request's own time has come too, its
-/// list takes over at once and no entry of the former one is executed in that instant.
+/// Time is that of the node's own synchronised clock. `now` does not decrease from call to call; if a clock is set back
+/// all the same, the span in force is continued backwards. Within one instant the order is List Config, Cycle Timer,
+/// List Execute. A list whose time has come is installed before a request of that instant is looked at; if the
+/// request's own time has come too, its list takes over at once and no entry of the former one is executed in that
+/// instant.
 template <class List>
 class CyclicSchedule {
  public:
@@ -121,8 +136,8 @@ class CyclicSchedule {
     const List* list = nullptr;  ///< none: the states before the first list
     sim::LocalTime from = sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min());
     sim::LocalTime until = sim::LocalTime::never();
-    sim::LocalTime anchor;       ///< a start of a cycle
-    bool repeats = false;        ///< false: the cycle at `anchor` runs alone, and its last states stay until `until`
+    sim::LocalTime anchor;  ///< a start of a cycle
+    bool repeats = false;   ///< false: the cycle at `anchor` runs alone, and its last states stay until `until`
   };
 
   /// Where an instant lies: in which span, in which cycle, in which entry.
@@ -141,7 +156,8 @@ class CyclicSchedule {
                "a cycle time extension is not negative and at most 13 days");
     const bool running = spans_[0].list != nullptr;
     const sim::Duration cycle = admin.admin_control_list->intervals().cycle_time();
-    const ConfigChange change{first_cycle_from(now, admin.admin_base_time, cycle), running && admin.admin_base_time < now};
+    const ConfigChange change{first_cycle_from(now, admin.admin_base_time, cycle),
+                              running && admin.admin_base_time < now};
     if (change.error_counted) ++config_change_error_;
     if (running) {
       lay_out_last_cycles(now, change.config_change_time);
@@ -149,7 +165,8 @@ class CyclicSchedule {
       span_count_ = 1;
       spans_[0].until = change.config_change_time;
     }
-    append({admin.admin_control_list, change.config_change_time, sim::LocalTime::never(), change.config_change_time, true});
+    append({admin.admin_control_list, change.config_change_time, sim::LocalTime::never(), change.config_change_time,
+            true});
     pending_extension_ = extension;
     pending_base_time_ = admin.admin_base_time;
     forget_place();
@@ -252,7 +269,8 @@ class CyclicSchedule {
   }
 
  private:
-  // The present span up to a cycle that must still begin, one irregular cycle, regular cycles, the stretched one, the new list.
+  // The present span up to a cycle that must still begin, one irregular cycle, regular cycles, the stretched one, the
+  // new list.
   static constexpr std::uint32_t span_limit = 5;
 
   static constexpr bool magnitude_is_fine(sim::LocalTime time) {
@@ -272,8 +290,9 @@ class CyclicSchedule {
 
   /// How the running list goes on to its end at `change` (SetCycleStartTime, 8.6.9.1.1).
   ///
-  /// CycleStartTime is chosen when a cycle starts, and stays: a request in the middle of a cycle moves only the starts after the
-  /// next one. From the first start on from which the change is at most a cycle and the extension away, no other follows.
+  /// CycleStartTime is chosen when a cycle starts, and stays: a request in the middle of a cycle moves only the starts
+  /// after the next one. From the first start on from which the change is at most a cycle and the extension away, no
+  /// other follows.
   void lay_out_last_cycles(sim::LocalTime now, sim::LocalTime change) {
     const List* const list = spans_[0].list;
     const sim::Duration cycle = list->intervals().cycle_time();

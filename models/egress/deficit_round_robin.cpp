@@ -20,7 +20,7 @@ TrafficClass DeficitRoundRobin::choose(const PerClass& first) {
     if (first[q] == 0) continue;
     TAKT_CHECK(quanta_[q] > 0, "a class without a share");
     const std::int64_t needed = std::max<std::int64_t>(1, (first[q] - now_.deficits[q] + quanta_[q] - 1) / quanta_[q]);
-    if (needed >= rounds) continue;   // of those that can send in one round the first
+    if (needed >= rounds) continue;  // of those that can send in one round the first
     rounds = needed;
     last = step;
   }

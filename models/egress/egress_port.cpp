@@ -10,13 +10,14 @@ namespace {
 template <class Arrivals>
 void sort_by_rank(Arrivals& arrivals) {
   for (std::size_t i = 1; i < arrivals.size(); ++i)
-    for (std::size_t j = i; j > 0 && arrivals[j].rank < arrivals[j - 1].rank; --j) std::swap(arrivals[j], arrivals[j - 1]);
+    for (std::size_t j = i; j > 0 && arrivals[j].rank < arrivals[j - 1].rank; --j)
+      std::swap(arrivals[j], arrivals[j - 1]);
 }
 
 }  // namespace
 
-void EgressPort::connect(sim::Simulation& simulation, sim::ComponentId node, Shared& shared, const PortConfig& config, const LocalClock& clock,
-                         sim::Duration octet_time, LinkEnd far_end, Link& incoming) {
+void EgressPort::connect(sim::Simulation& simulation, sim::ComponentId node, Shared& shared, const PortConfig& config,
+                         const LocalClock& clock, sim::Duration octet_time, LinkEnd far_end, Link& incoming) {
   TAKT_CHECK(shared_ == nullptr, "a port has one link");
   const sim::ComponentId id = simulation.add(*this);
   simulation.group(id, node);
@@ -25,9 +26,10 @@ void EgressPort::connect(sim::Simulation& simulation, sim::ComponentId node, Sha
   config_ = &config;
   clock_ = &clock;
   incoming_ = &incoming;
-  ranked_ = static_cast<ClassSet>(~config.shaping.shared());
+  strict_priority_classes_ = static_cast<ClassSet>(~config.shaping.shared());
   if (!config.shaping.is_plain()) make_shaping();
-  if (config.preemption || config.cut_through != 0 || config.untagged || ranked_ != every_class) make_extras();
+  if (config.preemption || config.cut_through != 0 || config.untagged || strict_priority_classes_ != every_class)
+    make_extras();
   if (config.preemption) extras_->merge = std::make_unique<MacMerge>(*config.preemption, octet_time);
   if (config.cut_through != 0) link_.check_arrivals();
 }
@@ -35,8 +37,8 @@ void EgressPort::connect(sim::Simulation& simulation, sim::ComponentId node, Sha
 /// To be called when frames begin or cease to wait.
 void EgressPort::note_waiting() {
   const bool selects = extras_ && (!only_merges_ || extras_->merge->rest());
-  starts_alone_ = queues_.empty() && !selects && !(shaping_ && shaping_->limits_sdu());
-  starts_at_once_ = starts_alone_ && has_queues_only();
+  starts_single_ = queues_.empty() && !selects && !(shaping_ && shaping_->limits_sdu());
+  starts_at_once_ = starts_single_ && has_queues_only();
 }
 
 /// To be called when the port gets other features.
@@ -63,13 +65,14 @@ void EgressPort::prepare() {
 
 void EgressPort::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == wake_up) [[likely]] {
-    if (sole_sender_) [[unlikely]] simulation.uncount_event();   // there for the recorder only
+    if (single_talker_port_) [[unlikely]]
+      simulation.uncount_event();  // there for the recorder only
     wake(simulation, event.time);
   } else if (event.kind() == sim::Simulation::decide_now) {
     simulation.uncount_event();
     simulation.decide_later(id(), sim::Decision::egress);
   } else {
-    take_stored(simulation, event);
+    handle_stored_frame(simulation, event);
   }
 }
 
@@ -98,23 +101,23 @@ void EgressPort::offer(sim::Simulation& simulation, FrameIndex frame, std::uint3
   decide_later(simulation);
 }
 
-inline void EgressPort::admit(sim::Simulation& simulation, FrameIndex frame) {
+inline void EgressPort::enqueue(sim::Simulation& simulation, FrameIndex frame) {
   const Frame& record = shared_->traffic->frame(frame);
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   DropReason reason{};
   const bool has_room = queues_.has_room(q, record.length, config_->queue_limits[q], reason);
   if (!has_room || simulation.trace() != nullptr || (shaping_ && shaping_->is_timed(q))) [[unlikely]]
-    admit_closely(simulation, frame, record, q);
+    enqueue_slow(simulation, frame, record, q);
   else
     queues_.push(q, frame, record.length, shared_->entries);
 }
 
 /// A frame that comes alone to the free medium while nothing waits.
-inline void EgressPort::start_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+inline void EgressPort::start_single(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
   if (shaping_) {
     if (!shaping_->starts_at_once(simulation.now(), q, record)) [[unlikely]] {
-      ask_shaping(simulation, frame, record);
+      start_if_shaping_allows(simulation, frame, record);
       return;
     }
     sending_ = q;
@@ -126,9 +129,9 @@ inline void EgressPort::start_alone(sim::Simulation& simulation, FrameIndex fram
 }
 
 /// Of the only frame of this instant, which does not just start.
-void EgressPort::offer_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
-  if (simulation.now() >= link_.free_at() && starts_alone_) {
-    start_alone(simulation, frame, record);
+void EgressPort::offer_single(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
+  if (simulation.now() >= link_.free_at() && starts_single_) {
+    start_single(simulation, frame, record);
     return;
   }
   has_arrival_ = true;
@@ -144,72 +147,78 @@ void EgressPort::decide(sim::Simulation& simulation) {
 /// Which case it is. Each is a tail call, so that the common ones save no registers.
 void EgressPort::decide_now(sim::Simulation& simulation) {
   if (!more_arrivals_.empty() || (extras_ && !only_merges_)) [[unlikely]] {
-    select_among_all(simulation);
+    select_and_start(simulation);
   } else if (!has_arrival_) {
-    !shaping_ || is_one_class(queues_.waiting()) ? start_waiting(simulation) : select_among_all(simulation);
+    !shaping_ || is_one_class(queues_.waiting()) ? start_waiting(simulation) : select_and_start(simulation);
   } else if (simulation.now() < link_.free_at()) {
-    queue_arrival(simulation);
-  } else if (starts_alone_) {
+    enqueue_behind_busy_medium(simulation);
+  } else if (starts_single_) {
     has_arrival_ = false;
-    start_alone(simulation, arrival_.frame, shared_->traffic->frame(arrival_.frame));
-  } else if (simulation.now() < promised_ && promised_ != sim::TrueTime::never() && simulation.trace() == nullptr) {
-    queue_behind_promised(simulation);
+    start_single(simulation, arrival_.frame, shared_->traffic->frame(arrival_.frame));
+  } else if (simulation.now() < head_eligible_at_ && head_eligible_at_ != sim::TrueTime::never() &&
+             simulation.trace() == nullptr) {
+    enqueue_behind_known_head(simulation);
   } else {
-    select_among_all(simulation);
+    select_and_start(simulation);
   }
 }
 
 /// The same where the cheap tests say nothing.
-void EgressPort::ask_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
+void EgressPort::start_if_shaping_allows(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   const TrafficClass q = config_->traffic_class_of_priority[record.queue_priority];
-  const sim::TrueTime ready = shaping_->start_exactly(simulation.now(), q, {record.length, eligible_of(record)});
+  const sim::TrueTime ready = shaping_->start_slow(simulation.now(), q, {record.length, eligible_of(record)});
   if (ready == simulation.now()) [[likely]] {
     sending_ = q;
     start(simulation, frame, record);
     return;
   }
-  admit(simulation, frame);
+  enqueue(simulation, frame);
   note_waiting();
-  promised_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
-  if (queues_.empty()) return;   // a frame that found no room is no more, and nobody waits
-  if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
+  head_eligible_at_ = shaping_->is_gated_only(q) ? ready : sim::TrueTime::never();
+  if (queues_.empty()) return;  // a frame that found no room is no more, and nobody waits
+  if (simulation.trace() != nullptr) [[unlikely]]
+    trace_blocked(simulation, q, frame, ready);
   wake_at(simulation, ready);
 }
 
 /// One frame has come to a busy medium: whatever waits, it waits, too.
-void EgressPort::queue_arrival(sim::Simulation& simulation) {
+void EgressPort::enqueue_behind_busy_medium(sim::Simulation& simulation) {
   has_arrival_ = false;
-  promised_ = sim::TrueTime::never();
+  head_eligible_at_ = sim::TrueTime::never();
   if (shaping_) {
     if (shaping_->limits_sdu() && !passes_max_sdu(simulation, arrival_.frame)) return;
     shaping_->frame_waits(simulation.now(), class_of(arrival_.frame));
   }
-  admit(simulation, arrival_.frame);
-  has_new_head_ = false;   // the heads are looked at when the medium is free
+  enqueue(simulation, arrival_.frame);
+  has_new_head_ = false;  // the heads are looked at when the medium is free
   wait_for_medium(simulation);
 }
 
-/// One frame has come to a free medium, where others wait for a gate that has promised when the first of them may start: it waits behind them if they are of its class.
-void EgressPort::queue_behind_promised(sim::Simulation& simulation) {
+/// One frame has come to a free medium, where others wait for a gate that has promised when the first of them may
+/// start: it waits behind them if they are of its class.
+void EgressPort::enqueue_behind_known_head(sim::Simulation& simulation) {
   const TrafficClass q = class_of(arrival_.frame);
   if (queues_.waiting() == only(q) && !shaping_->is_timed(q) && !shaping_->limits_sdu()) [[likely]] {
     has_arrival_ = false;
-    admit(simulation, arrival_.frame);
-    if (!has_new_head_) [[likely]] return;
+    enqueue(simulation, arrival_.frame);
+    if (!has_new_head_) [[likely]]
+      return;
     has_new_head_ = false;
   }
-  select_among_all(simulation);
+  select_and_start(simulation);
 }
 
 /// The medium is busy. Where express frames wait, a preemptable frame under way may be cut.
 inline void EgressPort::wait_for_medium(sim::Simulation& simulation) {
-  if (const MacMerge* const merge = merge_of(); merge != nullptr && merge->under_way() && (queues_.waiting() & ~merge->preemptable()) != 0)
+  if (const MacMerge* const merge = merge_of();
+      merge != nullptr && merge->under_way() && (queues_.waiting() & ~merge->preemptable()) != 0)
     if (const std::optional<MacMerge::Cut> earliest = merge->earliest_cut(simulation.now())) cut(simulation, *earliest);
   note_waiting();
   if (!queues_.empty() || (extras_ && extras_->merge->rest())) wake_at(simulation, link_.free_at());
 }
 
-/// A port wakes up, and frames of one class wait, or of several which nothing but their order keeps. At a port that preempts express frames come first, then the rest of a frame that was cut.
+/// A port wakes up, and frames of one class wait, or of several which nothing but their order keeps. At a port that
+/// preempts express frames come first, then the rest of a frame that was cut.
 void EgressPort::start_waiting(sim::Simulation& simulation) {
   const sim::TrueTime now = simulation.now();
   if (now < link_.free_at()) {
@@ -234,9 +243,10 @@ void EgressPort::start_waiting(sim::Simulation& simulation) {
   const FrameIndex frame = queues_.head(q, shared_->entries);
   const Frame& record = shared_->traffic->frame(frame);
   if (shaping_) {
-    const sim::TrueTime ready = promised_ == now ? now : shaping_->ready_time_of_head(now, q, record);
+    const sim::TrueTime ready = head_eligible_at_ == now ? now : shaping_->ready_time_of_head(now, q, record);
     if (ready != now) {
-      if (simulation.trace() != nullptr) [[unlikely]] tell_refusal(simulation, q, frame, ready);
+      if (simulation.trace() != nullptr) [[unlikely]]
+        trace_blocked(simulation, q, frame, ready);
       wake_at(simulation, ready);
       return;
     }
@@ -255,12 +265,12 @@ void EgressPort::start_waiting(sim::Simulation& simulation) {
 }
 
 /// The general case: whatever has come at this instant and waits. One frame starts, if it may, and the others wait.
-void EgressPort::select_among_all(sim::Simulation& simulation) {
-  promised_ = sim::TrueTime::never();
+void EgressPort::select_and_start(sim::Simulation& simulation) {
+  head_eligible_at_ = sim::TrueTime::never();
   if (has_arrival_) more_arrivals_.insert(more_arrivals_.begin(), arrival_);
   has_arrival_ = false;
   if (!link_.is_up()) {
-    for (const Arrival& arrival : more_arrivals_) give_up(simulation, arrival.frame, DropReason::link_down);
+    for (const Arrival& arrival : more_arrivals_) drop(simulation, arrival.frame, DropReason::link_down);
     more_arrivals_.clear();
     store_headers(simulation, Storing::link_down);
     return;
@@ -269,7 +279,7 @@ void EgressPort::select_among_all(sim::Simulation& simulation) {
   const sim::TrueTime now = simulation.now();
   if (!shaping_ && !extras_) {  // only the classes count: worth a path of its own, since such ports are most of all
     if (now >= link_.free_at()) start_highest(simulation);
-    admit_arrivals(simulation);
+    enqueue_arrivals(simulation);
     note_waiting();
     if (!queues_.empty()) wake_at(simulation, link_.free_at());
     return;
@@ -281,7 +291,8 @@ void EgressPort::select_among_all(sim::Simulation& simulation) {
   MacMerge* const merge = extras_ ? extras_->merge.get() : nullptr;
   sim::TrueTime next = link_.free_at();
   if (now >= next) {
-    if (simulation.trace() != nullptr) [[unlikely]] tell_refusals(simulation);
+    if (simulation.trace() != nullptr) [[unlikely]]
+      trace_all_blocked(simulation);
     const Selection selection = select_at_free_medium(now);
     next = selection.ask_again;
     if (selection.found) {
@@ -292,20 +303,21 @@ void EgressPort::select_among_all(sim::Simulation& simulation) {
     }
     if (selection.found || cut_through(simulation)) {
       // An express frame that waits for its gate or its credit may want to cut what has just started.
-      next = merge == nullptr ? link_.free_at() : merge->under_way() ? look_while_busy(simulation) : when_to_look(now);
+      next = merge == nullptr ? link_.free_at() : merge->under_way() ? next_cut_or_end(simulation) : when_to_look(now);
       store_headers(simulation, Storing::goes_first);
     }
-    admit_arrivals(simulation);
+    enqueue_arrivals(simulation);
   } else {
     // A frame that finds no room is no reason to cut another one.
-    admit_arrivals(simulation);
-    if (merge != nullptr) next = look_while_busy(simulation);
+    enqueue_arrivals(simulation);
+    if (merge != nullptr) next = next_cut_or_end(simulation);
     store_headers(simulation, Storing::medium_busy);
   }
   if (has_new_head_) [[unlikely]] {
-    // What was selected, or asked to come again, knew other heads: those of now may start although the ones before them might not.
+    // What was selected, or asked to come again, knew other heads: those of now may start although the ones before them
+    // might not.
     has_new_head_ = false;
-    select_among_all(simulation);
+    select_and_start(simulation);
     return;
   }
   note_waiting();
@@ -329,8 +341,8 @@ inline void EgressPort::start_highest(sim::Simulation& simulation) {
   }
 }
 
-inline void EgressPort::admit_arrivals(sim::Simulation& simulation) {
-  for (const Arrival& arrival : more_arrivals_) admit(simulation, arrival.frame);
+inline void EgressPort::enqueue_arrivals(sim::Simulation& simulation) {
+  for (const Arrival& arrival : more_arrivals_) enqueue(simulation, arrival.frame);
   more_arrivals_.clear();
 }
 
@@ -341,32 +353,40 @@ ClassSet EgressPort::candidates() const {
   return candidates;
 }
 
-/// The first frame of a class: the head of its queue, or of those of this instant. In a timed class the one with the earliest time.
-EgressPort::First EgressPort::first_of(TrafficClass q) const {
+/// The first frame of a class: the head of its queue, or of those of this instant. In a timed class the one with the
+/// earliest time.
+EgressPort::First EgressPort::head_of_line(TrafficClass q) const {
   First first;
   if (queues_.frames(q) > 0) first.frame = queues_.head(q, shared_->entries);
   const bool is_timed = shaping_ && shaping_->is_timed(q);
   for (std::uint32_t i = 0; i < more_arrivals_.size(); ++i) {
     const FrameIndex frame = more_arrivals_[i].frame;
-    if (class_of(frame) != q || (!first.frame.is_none() && !(is_timed && eligible_of(frame) < eligible_of(first.frame)))) continue;
+    if (class_of(frame) != q ||
+        (!first.frame.is_none() && !(is_timed && eligible_of(frame) < eligible_of(first.frame))))
+      continue;
     first = {frame, i};
   }
   return first;
 }
 
-/// Of these classes the most urgent one that may start, now or `delay` later. No lower one is blocked by a higher one that may not (IEEE
-/// 802.1Q 8.6.8). Classes that share bandwidth come behind all others.
+/// Of these classes the most urgent one that may start, now or `delay` later. No lower one is blocked by a higher one
+/// that may not (IEEE 802.1Q 8.6.8). Classes that share bandwidth come behind all others.
 EgressPort::Selection EgressPort::select(sim::TrueTime now, ClassSet classes, sim::Duration delay) {
   Selection selection;
-  for (ClassSet left = candidates() & classes & ranked_; left != 0 && !selection.found; left = without(left, selection.traffic_class)) {
+  for (ClassSet left = candidates() & classes & strict_priority_classes_; left != 0 && !selection.found;
+       left = without(left, selection.traffic_class)) {
     selection.traffic_class = highest_class(left);
-    selection.first = first_of(selection.traffic_class);
+    selection.first = head_of_line(selection.traffic_class);
     const FrameIndex frame = selection.first.frame;
-    const sim::TrueTime ready = shaping_ ? shaping_->ready_time(now, selection.traffic_class, {shared_->traffic->frame(frame).length, eligible_of(frame)}, delay) : now;
+    const sim::TrueTime ready =
+        shaping_ ? shaping_->ready_time(now, selection.traffic_class,
+                                        {shared_->traffic->frame(frame).length, eligible_of(frame)}, delay)
+                 : now;
     selection.found = ready == now;
     if (!selection.found) selection.ask_again = std::min(selection.ask_again, ready);
   }
-  if (!selection.found && ranked_ != every_class) select_by_share(now, candidates() & classes & static_cast<ClassSet>(~ranked_), delay, selection);
+  if (!selection.found && strict_priority_classes_ != every_class)
+    select_by_share(now, candidates() & classes & static_cast<ClassSet>(~strict_priority_classes_), delay, selection);
   return selection;
 }
 
@@ -389,15 +409,18 @@ EgressPort::Selection EgressPort::select_at_free_medium(sim::TrueTime now) {
   return other;
 }
 
-/// When to look again after a frame has started: at its end, or at a port that preempts when the MAC will be asked to hold.
+/// When to look again after a frame has started: at its end, or at a port that preempts when the MAC will be asked to
+/// hold.
 sim::TrueTime EgressPort::when_to_look(sim::TrueTime now) {
   if (!extras_ || !extras_->merge) return link_.free_at();
   const MacMerge& merge = *extras_->merge;
-  sim::TrueTime next = queues_.empty() && more_arrivals_.empty() && !merge.rest() ? sim::TrueTime::never() : link_.free_at();
+  sim::TrueTime next =
+      queues_.empty() && more_arrivals_.empty() && !merge.rest() ? sim::TrueTime::never() : link_.free_at();
   if (merge.under_way() && now < link_.free_at()) {
     const HoldRequest hold = hold_request(now);
     if (!hold.hold && hold.until != sim::LocalTime::never())
-      if (const sim::TrueTime begin = clock_->true_at(hold.until); begin < link_.free_at()) next = std::min(next, begin);
+      if (const sim::TrueTime begin = clock_->true_at(hold.until); begin < link_.free_at())
+        next = std::min(next, begin);
   }
   return next;
 }
@@ -430,45 +453,7 @@ void EgressPort::start_selected(sim::Simulation& simulation, FrameIndex frame, T
     start(simulation, frame);
 }
 
-bool EgressPort::passes_max_sdu(sim::Simulation& simulation, FrameIndex frame) {
-  const Frame& record = shared_->traffic->frame(frame);
-  const std::uint32_t msdu = record.msdu + (record.r_tagged ? r_tag.count : 0);
-  if (shaping_->fits_max_sdu(config_->traffic_class_of_priority[record.queue_priority], msdu)) return true;
-  give_up(simulation, frame, DropReason::queue_max_sdu);
-  return false;
-}
-
-/// To a full queue, to one that is not in the order of coming, or where somebody wants to know.
-void EgressPort::admit_closely(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q) {
-  DropReason reason{};
-  if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason)) {
-    admit_to_full_queue(simulation, frame, q, reason);
-    return;
-  }
-  if (shaping_ && shaping_->is_timed(q))
-    queues_.push_in_order(q, frame, record.length, shared_->entries, [this](FrameIndex f) { return eligible_of(f); });
-  else
-    queues_.push(q, frame, record.length, shared_->entries);
-  if (sim::TraceSink* const trace = simulation.trace())
-    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::enqueued), id(), frame.value, q});
-}
-
-/// The frame is lost, or, if it is to be so and it fits at all, the oldest ones are until it fits.
-void EgressPort::admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason) {
-  const std::uint32_t length = shared_->traffic->frame(frame).length;
-  const QueueLimit& limit = config_->queue_limits[q];
-  if (!limit.drops_oldest || limit.frames == 0 || length > limit.octets) {
-    give_up(simulation, frame, reason);
-    if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
-    return;
-  }
-  do give_up(simulation, pop(simulation, q), reason);
-  while (!queues_.has_room(q, length, limit, reason));
-  has_new_head_ = shaping_ != nullptr;   // without gates and shapers every head is ready
-  admit(simulation, frame);
-}
-
-void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {
+void EgressPort::drop(sim::Simulation& simulation, FrameIndex frame, DropReason reason) {
   ++frames_dropped_;
   shared_->traffic->drop(frame, reason, id(), simulation);
 }
@@ -477,7 +462,7 @@ void EgressPort::give_up(sim::Simulation& simulation, FrameIndex frame, DropReas
 void EgressPort::start(sim::Simulation& simulation, FrameIndex frame, const Frame& record) {
   if (record.link_local || simulation.trace() != nullptr) [[unlikely]]
     start_announced(simulation, frame, record);
-  else if (link_.folds_latency()) [[unlikely]]   // at the edge of a network only
+  else if (link_.folds_latency()) [[unlikely]]  // at the edge of a network only
     link_.transmit_folded(simulation, frame, record);
   else
     link_.transmit(simulation, frame, record);
@@ -491,7 +476,8 @@ void EgressPort::start_announced(sim::Simulation& simulation, FrameIndex frame, 
   else
     link_.transmit(simulation, frame, record);
   if (sim::TraceSink* const trace = simulation.trace())
-    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, class_of(frame)}.pack()});
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::started), id(), frame.value,
+                   TransmissionDetail{record.length, class_of(frame)}.pack()});
 }
 
 void EgressPort::wake_at(sim::Simulation& simulation, sim::TrueTime time) {

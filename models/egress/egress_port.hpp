@@ -1,4 +1,5 @@
-// The sending side of a port: queues and transmission selection in front of a link. The same class serves hosts and bridges.
+// The sending side of a port: queues and transmission selection in front of a link. The same class serves hosts and
+// bridges.
 #pragma once
 
 #include <array>
@@ -12,7 +13,7 @@
 #include "models/egress/mac_merge.hpp"
 #include "models/egress/port_config.hpp"
 #include "models/egress/port_shaping.hpp"
-#include "models/egress/sole_sender.hpp"
+#include "models/egress/single_talker_port.hpp"
 #include "models/ethernet/link.hpp"
 #include "models/ethernet/link_local.hpp"
 #include "sim/simulation.hpp"
@@ -30,10 +31,10 @@ class alignas(64) EgressPort final : public sim::Component {
 
   EgressPort() = default;
 
-  /// Connects the port of a node (sim::Simulation::group). `octet_time` is that of the link; `config`, `clock` and `incoming`, the link's other direction, outlive
-  /// the port.
-  void connect(sim::Simulation& simulation, sim::ComponentId node, Shared& shared, const PortConfig& config, const LocalClock& clock, sim::Duration octet_time,
-               LinkEnd far_end, Link& incoming);
+  /// Connects the port of a node (sim::Simulation::group). `octet_time` is that of the link; `config`, `clock` and
+  /// `incoming`, the link's other direction, outlive the port.
+  void connect(sim::Simulation& simulation, sim::ComponentId node, Shared& shared, const PortConfig& config,
+               const LocalClock& clock, sim::Duration octet_time, LinkEnd far_end, Link& incoming);
   /// To be called before the run, and after what is asked of the link before it.
   void prepare();
   /// offer_header() will be called. Before prepare().
@@ -43,13 +44,15 @@ class alignas(64) EgressPort final : public sim::Component {
   const Link& link() const { return link_; }
   /// Every frame is put on the link by Link::transmit. After prepare().
   bool sends_plainly() const { return !extras_ && link_.is_plain() && !link_.checks(); }
-  /// Neither gates nor shapers nor other features: what starts next depends on queues and medium alone. After prepare().
+  /// Neither gates nor shapers nor other features: what starts next depends on queues and medium alone. After
+  /// prepare().
   bool has_queues_only() const { return !shaping_ && !extras_; }
-  /// One process alone will hand frames to this port, all of class `q`: where it does so. After prepare(). Preconditions: sends_plainly(), has_queues_only(), the queue has no
-  /// limit, and neither request_gates() nor force_gate() will be called.
-  SoleSender& serve_one(const sim::Simulation& simulation, TrafficClass q) {
-    sole_sender_ = std::make_unique<SoleSender>(simulation, link_, q);
-    return *sole_sender_;
+  /// One process alone will hand frames to this port, all of class `q`: where it does so. After prepare().
+  /// Preconditions: sends_plainly(), has_queues_only(), the queue has no limit, and neither request_gates() nor
+  /// force_gate() will be called.
+  SingleTalkerPort& serve_one(const sim::Simulation& simulation, TrafficClass q) {
+    single_talker_port_ = std::make_unique<SingleTalkerPort>(simulation, link_, q);
+    return *single_talker_port_;
   }
   /// The other direction, by which the node receives.
   Link& incoming() const { return *incoming_; }
@@ -57,10 +60,12 @@ class alignas(64) EgressPort final : public sim::Component {
   void receive_by(Link& incoming) { incoming_ = &incoming; }
 
   /// Hands the port a frame at the present instant. Frames that come at one instant are put into a canonical order, by
-  /// `rank` (the ingress port in a bridge, the talker in a host), so that it does not matter which was handed over first.
+  /// `rank` (the ingress port in a bridge, the talker in a host), so that it does not matter which was handed over
+  /// first.
   void offer(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank);
 
-  /// The same as the last act of an event handler: the port decides at once if nothing else happens to its node at this instant. `record` is that of the frame.
+  /// The same as the last act of an event handler: the port decides at once if nothing else happens to its node at this
+  /// instant. `record` is that of the frame.
   void offer_last(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank) {
     if (!simulation.is_last()) [[unlikely]]
       offer(simulation, frame, rank);
@@ -72,7 +77,7 @@ class alignas(64) EgressPort final : public sim::Component {
     if (simulation.now() >= link_.free_at() && starts_at_once_) [[likely]]
       start(simulation, frame, record);
     else
-      offer_alone(simulation, frame, record, rank);
+      offer_single(simulation, frame, record, rank);
   }
 
   /// The same for a frame of which only the header has come: it starts at once if this port cuts its class through, the
@@ -81,7 +86,8 @@ class alignas(64) EgressPort final : public sim::Component {
   /// transmission selection is cut through: the most urgent class, then the least rank. Otherwise it is offered at
   /// `stored`, when it has wholly come and the node's fixed delay is over, or dropped then if it turns out to be
   /// damaged. `from` is the link by which it comes. Precondition: expect_headers().
-  void offer_header(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::TrueTime stored, Link& from) {
+  void offer_header(sim::Simulation& simulation, FrameIndex frame, std::uint32_t rank, sim::TrueTime stored,
+                    Link& from) {
     extras_->headers.push_back({frame, rank, stored, &from});
     decide_later(simulation);
   }
@@ -99,7 +105,8 @@ class alignas(64) EgressPort final : public sim::Component {
 
   /// force_gate() will be called.
   void expect_stuck_gates() { make_shaping(); }
-  /// A link that goes down loses what is on it and what waits for it; while it is down, what is offered. Precondition: Link::expect_faults.
+  /// A link that goes down loses what is on it and what waits for it; while it is down, what is offered. Precondition:
+  /// Link::expect_faults.
   void set_link_up(sim::Simulation& simulation, bool up);
   /// What waits in the queues is lost for that reason; so is a frame under way.
   void flush(sim::Simulation& simulation, DropReason reason);
@@ -122,21 +129,26 @@ class alignas(64) EgressPort final : public sim::Component {
   const LocalClock& clock() const { return *clock_; }
 
   sim::ComponentId id() const { return link_.sender(); }
-  const PortQueues& queues() const { return is_sent_to_ahead() ? sole_sender_->queues() : queues_; }
-  std::uint64_t frames_sent() const { return link_.frames_sent() - (is_sent_to_ahead() ? sole_sender_->to_come().frames : 0); }
-  std::uint64_t wire_octets_sent() const { return link_.wire_octets_sent() - (is_sent_to_ahead() ? sole_sender_->to_come().wire_octets : 0); }
+  const PortQueues& queues() const { return is_sent_to_ahead() ? single_talker_port_->queues() : queues_; }
+  std::uint64_t frames_sent() const {
+    return link_.frames_sent() - (is_sent_to_ahead() ? single_talker_port_->to_come().frames : 0);
+  }
+  std::uint64_t wire_octets_sent() const {
+    return link_.wire_octets_sent() - (is_sent_to_ahead() ? single_talker_port_->to_come().wire_octets : 0);
+  }
   /// Those lost on its link are among them.
   std::uint64_t frames_dropped() const { return frames_dropped_ + link_.frames_lost(); }
 
  private:
-  bool is_sent_to_ahead() const { return sole_sender_ && !sole_sender_->is_recorded(); }
+  bool is_sent_to_ahead() const { return single_talker_port_ && !single_talker_port_->is_recorded(); }
   static constexpr sim::EventKind wake_up = 0;
   static constexpr sim::EventKind stored_frame = 1;  // a frame that was not cut through has come wholly
   struct Arrival {
     FrameIndex frame;
     std::uint32_t rank = 0;
   };
-  /// What few ports have besides gates and shapers. Ports whose classes share bandwidth have it too, so that they select among all classes.
+  /// What few ports have besides gates and shapers. Ports whose classes share bandwidth have it too, so that they
+  /// select among all classes.
   struct Extras {
     std::unique_ptr<MacMerge> merge;
     bool expects_headers = false;
@@ -156,7 +168,8 @@ class alignas(64) EgressPort final : public sim::Component {
     std::uint32_t arrival = 0xFFFF'FFFF;
     bool is_in_queue() const { return arrival == 0xFFFF'FFFF; }
   };
-  /// What transmission selection says: a frame that may start now, or the rest of one that was cut, or when to ask again.
+  /// What transmission selection says: a frame that may start now, or the rest of one that was cut, or when to ask
+  /// again.
   struct Selection {
     bool found = false;
     bool is_rest = false;
@@ -165,29 +178,30 @@ class alignas(64) EgressPort final : public sim::Component {
     sim::TrueTime ask_again = sim::TrueTime::never();
   };
 
-  // What has come at this instant and what waits is one of five cases: start_alone() of a frame that comes alone to a free medium while nothing waits, and these.
-  void start_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  [[gnu::noinline]] void queue_arrival(sim::Simulation& simulation);
-  [[gnu::noinline]] void queue_behind_promised(sim::Simulation& simulation);
+  // What has come at this instant and what waits is one of five cases: start_single() of a frame that comes alone to a
+  // free medium while nothing waits, and these.
+  void start_single(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void enqueue_behind_busy_medium(sim::Simulation& simulation);
+  [[gnu::noinline]] void enqueue_behind_known_head(sim::Simulation& simulation);
   [[gnu::noinline]] void start_waiting(sim::Simulation& simulation);
-  [[gnu::noinline]] void select_among_all(sim::Simulation& simulation);
-  void offer_alone(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
+  [[gnu::noinline]] void select_and_start(sim::Simulation& simulation);
+  void offer_single(sim::Simulation& simulation, FrameIndex frame, const Frame& record, std::uint32_t rank);
   [[gnu::noinline]] void decide_now(sim::Simulation& simulation);
-  [[gnu::noinline]] void ask_shaping(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
+  [[gnu::noinline]] void start_if_shaping_allows(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void wait_for_medium(sim::Simulation& simulation);
   void note_waiting();
   void note_features();
   [[gnu::noinline]] void decide_later(sim::Simulation& simulation);
   ClassSet candidates() const;
-  First first_of(TrafficClass q) const;
+  First head_of_line(TrafficClass q) const;
   Selection select(sim::TrueTime now, ClassSet classes, sim::Duration delay = {});
   void select_by_share(sim::TrueTime now, ClassSet classes, sim::Duration delay, Selection& selection);
   Selection select_at_free_medium(sim::TrueTime now);
   Selection select_rest(sim::TrueTime now, const MacMerge::Rest& rest);
-  sim::TrueTime look_while_busy(sim::Simulation& simulation);
+  sim::TrueTime next_cut_or_end(sim::Simulation& simulation);
   sim::TrueTime when_to_look(sim::TrueTime now);
   void wake(sim::Simulation& simulation, sim::TrueTime time);
-  void take_stored(sim::Simulation& simulation, const sim::Event& event);
+  void handle_stored_frame(sim::Simulation& simulation, const sim::Event& event);
   bool cut_through(sim::Simulation& simulation);
   void start_before_it_has_come(sim::Simulation& simulation, FrameIndex frame);
   void store_headers(sim::Simulation& simulation, Storing reason);
@@ -195,25 +209,31 @@ class alignas(64) EgressPort final : public sim::Component {
   void start_first(sim::Simulation& simulation, const Selection& selection);
   void start_selected(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, bool queue_is_empty);
   /// At a port that preempts and has nothing else.
-  [[gnu::noinline]] void start_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q);
+  [[gnu::noinline]] void start_merging(sim::Simulation& simulation, FrameIndex frame, const Frame& record,
+                                       TrafficClass q);
   void start_with_extras(sim::Simulation& simulation, FrameIndex frame, TrafficClass q);
   void resume(sim::Simulation& simulation);
   void cut(sim::Simulation& simulation, const MacMerge::Cut& cut);
   FrameIndex pop(sim::Simulation& simulation, TrafficClass q);
   bool passes_max_sdu(sim::Simulation& simulation, FrameIndex frame);
   void start(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
-  void start(sim::Simulation& simulation, FrameIndex frame) { start(simulation, frame, shared_->traffic->frame(frame)); }
+  void start(sim::Simulation& simulation, FrameIndex frame) {
+    start(simulation, frame, shared_->traffic->frame(frame));
+  }
   [[gnu::noinline]] void start_announced(sim::Simulation& simulation, FrameIndex frame, const Frame& record);
   void start_highest(sim::Simulation& simulation);
-  void admit_arrivals(sim::Simulation& simulation);
-  void admit(sim::Simulation& simulation, FrameIndex frame);
-  [[gnu::noinline]] void admit_closely(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q);
-  [[gnu::noinline]] void admit_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q, DropReason reason);
-  void give_up(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
-  // For who records the run: why what waits at the free medium may not start.
-  [[gnu::noinline]] void tell_refusals(sim::Simulation& simulation);
-  [[gnu::noinline]] void tell_refusal(sim::Simulation& simulation, TrafficClass q, FrameIndex first, sim::TrueTime until);
-  void tell(sim::Simulation& simulation, const Refusal& refusal, sim::TrueTime until);
+  void enqueue_arrivals(sim::Simulation& simulation);
+  void enqueue(sim::Simulation& simulation, FrameIndex frame);
+  [[gnu::noinline]] void enqueue_slow(sim::Simulation& simulation, FrameIndex frame, const Frame& record,
+                                      TrafficClass q);
+  [[gnu::noinline]] void enqueue_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q,
+                                               DropReason reason);
+  void drop(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
+  // For traces: why a waiting frame may not start although the medium is free.
+  [[gnu::noinline]] void trace_all_blocked(sim::Simulation& simulation);
+  [[gnu::noinline]] void trace_blocked(sim::Simulation& simulation, TrafficClass q, FrameIndex first,
+                                       sim::TrueTime until);
+  void tell(sim::Simulation& simulation, const BlockedRecord& refusal, sim::TrueTime until);
   void wake_at(sim::Simulation& simulation, sim::TrueTime time);
   PortShaping& make_shaping();
   Extras& make_extras();
@@ -225,37 +245,38 @@ class alignas(64) EgressPort final : public sim::Component {
     return config_->traffic_class_of_priority[shared_->traffic->frame(frame).queue_priority];
   }
   /// Preamble and gap included.
-  std::int64_t octets_on_medium(FrameIndex frame) const { return wire_length(Octets{shared_->traffic->frame(frame).length}).count; }
-  sim::LocalTime eligible_of(FrameIndex frame) const {
-    return eligible_of(shared_->traffic->frame(frame));
+  std::int64_t octets_on_medium(FrameIndex frame) const {
+    return wire_length(Octets{shared_->traffic->frame(frame).length}).count;
   }
+  sim::LocalTime eligible_of(FrameIndex frame) const { return eligible_of(shared_->traffic->frame(frame)); }
   static sim::LocalTime eligible_of(const Frame& record) { return PortShaping::eligible_of(record); }
   MacMerge* merge_of() const { return extras_ ? extras_->merge.get() : nullptr; }
 
   // One cache line holds all that a frame touches at a port that is free.
-  bool will_decide_ = false;                 // it has asked to, at the end of this instant
+  bool will_decide_ = false;  // it has asked to, at the end of this instant
   bool has_arrival_ = false;
-  bool starts_alone_ = true;                 // nothing waits: a frame that comes alone to the free medium starts if shaping_ lets it
-  bool starts_at_once_ = true;               // the same, and there is neither shaping nor extras
-  TrafficClass sending_ = 0;                 // the class of the frame under way, if there is shaping
-  ClassSet ranked_ = every_class;            // those that do not share bandwidth: the most urgent one goes first
+  bool starts_single_ = true;   // nothing waits: a frame that comes alone to the free medium starts if shaping_ lets it
+  bool starts_at_once_ = true;  // the same, and there is neither shaping nor extras
+  TrafficClass sending_ = 0;    // the class of the frame under way, if there is shaping
+  ClassSet strict_priority_classes_ = every_class;  // those that do not share bandwidth: the most urgent one goes first
   Link link_;
   // Touched when frames wait.
-  Arrival arrival_;                          // the first of this instant
+  Arrival arrival_;  // the first of this instant
   Shared* shared_ = nullptr;
   sim::TrueTime wake_at_ = sim::TrueTime::never();
   const PortConfig* config_ = nullptr;
   const LocalClock* clock_ = nullptr;
   std::unique_ptr<PortShaping> shaping_;
   std::unique_ptr<Extras> extras_;
-  sim::TrueTime promised_ = sim::TrueTime::never();  // when the head of the only class that waits may start: its gate has said so
+  sim::TrueTime head_eligible_at_ =
+      sim::TrueTime::never();  // when the head of the only class that waits may start: its gate has said so
   std::uint64_t frames_dropped_ = 0;
   Link* incoming_ = nullptr;
   PortQueues queues_;
-  bool only_merges_ = false;                 // it preempts, and there is nothing else
-  bool has_new_head_ = false;                // a frame at the head of a queue was dropped for one that has come
-  std::vector<Arrival> more_arrivals_;       // the others
-  std::unique_ptr<SoleSender> sole_sender_;  // see serve_one()
+  bool only_merges_ = false;            // it preempts, and there is nothing else
+  bool has_new_head_ = false;           // a frame at the head of a queue was dropped for one that has come
+  std::vector<Arrival> more_arrivals_;  // the others
+  std::unique_ptr<SingleTalkerPort> single_talker_port_;  // see serve_one()
 };
 
 }  // namespace takt::models

@@ -1,4 +1,5 @@
-// What few ports do: preemption, cut-through, and sharing bandwidth; what all say to who records the run; and what happens to them: other gates, links that fail.
+// What few ports do: preemption, cut-through, shared bandwidth, full queues. Traces of all ports. Faults: changed
+// gates, failing links.
 #include <algorithm>
 
 #include "models/egress/egress_port.hpp"
@@ -22,7 +23,8 @@ void EgressPort::start_merging(sim::Simulation& simulation, FrameIndex frame, co
 void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame, TrafficClass q) {
   const Frame& record = shared_->traffic->frame(frame);
   const sim::TrueTime now = simulation.now();
-  if (record.link_local) [[unlikely]] shared_->link_local->transmission_starts(simulation, id(), frame);
+  if (record.link_local) [[unlikely]]
+    shared_->link_local->transmission_starts(simulation, id(), frame);
   MacMerge* const merge = extras_->merge.get();
   const bool is_preemptable = merge != nullptr && merge->is_preemptable(q);
   const sim::TrueTime arrival = link_.transmit_any(simulation, frame, record, is_preemptable);
@@ -31,17 +33,18 @@ void EgressPort::start_with_extras(sim::Simulation& simulation, FrameIndex frame
   else if (merge != nullptr)
     merge->express_started();
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
-    trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value, TransmissionDetail{record.length, q}.pack()});
+    trace->record({now, static_cast<std::uint32_t>(Occurrence::started), id(), frame.value,
+                   TransmissionDetail{record.length, q}.pack()});
 }
 
-/// Of classes that share bandwidth the one whose turn it is among those that may start. What is selected for the present instant starts, and pays; for a later one the question is only
-/// whether it is worth cutting another frame.
+/// Of classes that share bandwidth the one whose turn it is among those that may start. What is selected for the
+/// present instant starts, and pays; for a later one the question is only whether it is worth cutting another frame.
 void EgressPort::select_by_share(sim::TrueTime now, ClassSet classes, sim::Duration delay, Selection& selection) {
   DeficitRoundRobin::PerClass first{};
   for (ClassSet left = classes; left != 0;) {
     const TrafficClass q = highest_class(left);
     left = without(left, q);
-    const FrameIndex frame = first_of(q).frame;
+    const FrameIndex frame = head_of_line(q).frame;
     const sim::TrueTime ready = shaping_->ready_time(now, q, {shared_->traffic->frame(frame).length, {}}, delay);
     if (ready == now) {
       selection.found = true;
@@ -52,10 +55,11 @@ void EgressPort::select_by_share(sim::TrueTime now, ClassSet classes, sim::Durat
   }
   if (!selection.found) return;
   selection.traffic_class = shaping_->round()->choose(first);
-  selection.first = first_of(selection.traffic_class);
+  selection.first = head_of_line(selection.traffic_class);
   if (delay > sim::Duration()) return;
   const auto is_alike = [&](const Arrival& arrival) { return class_of(arrival.frame) == selection.traffic_class; };
-  const auto frames = queues_.frames(selection.traffic_class) + static_cast<std::size_t>(std::count_if(more_arrivals_.begin(), more_arrivals_.end(), is_alike));
+  const auto frames = queues_.frames(selection.traffic_class) +
+                      static_cast<std::size_t>(std::count_if(more_arrivals_.begin(), more_arrivals_.end(), is_alike));
   shaping_->round()->started(selection.traffic_class, first[selection.traffic_class], frames == 1);
 }
 
@@ -69,9 +73,9 @@ HoldRequest EgressPort::hold_request(sim::TrueTime now) {
   return extras_->merge->hold_request(shaping_->gates(), clock_->local_at(now));
 }
 
-/// While the medium is busy at a port that preempts: cuts the frame under way if an express frame may start, or if the MAC is
-/// asked to hold. Says when to look again.
-sim::TrueTime EgressPort::look_while_busy(sim::Simulation& simulation) {
+/// While the medium is busy at a port that preempts: cuts the frame under way if an express frame may start, or if the
+/// MAC is asked to hold. Says when to look again.
+sim::TrueTime EgressPort::next_cut_or_end(sim::Simulation& simulation) {
   MacMerge& merge = *extras_->merge;
   const sim::TrueTime now = simulation.now();
   if (!merge.under_way()) return when_to_look(now);
@@ -110,7 +114,8 @@ void EgressPort::resume(sim::Simulation& simulation) {
     shaping_->resumed(now, rest.traffic_class, rest.remaining.count);
     sending_ = rest.traffic_class;
   }
-  const sim::TrueTime arrival = link_.transmit_rest(simulation, rest.frame, shared_->traffic->frame(rest.frame), rest.remaining);
+  const sim::TrueTime arrival =
+      link_.transmit_rest(simulation, rest.frame, shared_->traffic->frame(rest.frame), rest.remaining);
   merge.started({rest.frame, rest.traffic_class, now, rest.remaining, arrival});
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
     trace->record({now, static_cast<std::uint32_t>(Occurrence::resumed), id(), rest.frame.value,
@@ -141,7 +146,7 @@ bool EgressPort::cut_through(sim::Simulation& simulation) {
 void EgressPort::start_before_it_has_come(sim::Simulation& simulation, FrameIndex frame) {
   const TrafficClass q = class_of(frame);
   if (shaping_) shaping_->frame_waits(simulation.now(), q);
-  if (!contains(ranked_, q)) {  // no other class that shares bandwidth may start
+  if (!contains(strict_priority_classes_, q)) {  // no other class that shares bandwidth may start
     DeficitRoundRobin::PerClass first{};
     first[q] = octets_on_medium(frame);
     shaping_->round()->started(shaping_->round()->choose(first), first[q], true);
@@ -162,16 +167,17 @@ void EgressPort::store_headers(sim::Simulation& simulation, Storing reason) {
       trace->record(
           {simulation.now(), static_cast<std::uint32_t>(Occurrence::stored), id(), header.frame.value, detail.pack()});
     }
-    link_.schedule_for_sender(simulation, header.stored, stored_frame, static_cast<std::uint64_t>(header.rank) << 32 | header.frame.value);
+    link_.schedule_for_sender(simulation, header.stored, stored_frame,
+                              static_cast<std::uint64_t>(header.rank) << 32 | header.frame.value);
   }
   extras_->headers.clear();
 }
 
-void EgressPort::take_stored(sim::Simulation& simulation, const sim::Event& event) {
+void EgressPort::handle_stored_frame(sim::Simulation& simulation, const sim::Event& event) {
   TAKT_CHECK(event.kind() == stored_frame, "an event of another component");
   const FrameIndex frame{static_cast<std::uint32_t>(event.argument)};
   if (shared_->traffic->frame(frame).bad_fcs)
-    give_up(simulation, frame, DropReason::bad_fcs);
+    drop(simulation, frame, DropReason::bad_fcs);
   else
     offer(simulation, frame, static_cast<std::uint32_t>(event.argument >> 32));
 }
@@ -194,25 +200,27 @@ std::optional<StoringDetail> EgressPort::why_stored(sim::TrueTime now, const Ext
   return StoringDetail{Storing::refused, shaping_->refusal(now, q, head)};
 }
 
-void EgressPort::tell(sim::Simulation& simulation, const Refusal& refusal, sim::TrueTime until) {
-  simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::refused), id(), static_cast<std::uint64_t>(until.ps()), refusal.pack()});
+void EgressPort::tell(sim::Simulation& simulation, const BlockedRecord& refusal, sim::TrueTime until) {
+  simulation.trace()->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::refused), id(),
+                              static_cast<std::uint64_t>(until.ps()), refusal.pack()});
 }
 
-void EgressPort::tell_refusal(sim::Simulation& simulation, TrafficClass q, FrameIndex first, sim::TrueTime until) {
-  tell(simulation, shaping_->refusal(simulation.now(), q, {shared_->traffic->frame(first).length, eligible_of(first)}), until);
+void EgressPort::trace_blocked(sim::Simulation& simulation, TrafficClass q, FrameIndex first, sim::TrueTime until) {
+  tell(simulation, shaping_->refusal(simulation.now(), q, {shared_->traffic->frame(first).length, eligible_of(first)}),
+       until);
 }
 
 /// Asks what transmission selection will ask now, of each class; to ask twice changes nothing.
-void EgressPort::tell_refusals(sim::Simulation& simulation) {
+void EgressPort::trace_all_blocked(sim::Simulation& simulation) {
   const sim::TrueTime now = simulation.now();
   MacMerge* const merge = extras_ ? extras_->merge.get() : nullptr;
   // What keeps all preemptable classes: a hold, or the rest of a cut frame, before which none of them may go.
-  std::optional<Refusal> of_preemptable;
+  std::optional<BlockedRecord> of_preemptable;
   sim::TrueTime until = sim::TrueTime::never();
   if (merge != nullptr) {
     const HoldRequest hold = hold_request(now);
     if (hold.hold) {
-      of_preemptable = Refusal{.hindrance = Hindrance::hold};
+      of_preemptable = BlockedRecord{.hindrance = BlockReason::hold};
       if (hold.until != sim::LocalTime::never()) until = clock_->true_at(hold.until);
     } else if (merge->rest() && shaping_) {
       const MacMerge::Rest& rest = *merge->rest();
@@ -223,8 +231,8 @@ void EgressPort::tell_refusals(sim::Simulation& simulation) {
       }
     }
   }
-  const auto tell_of_preemptable = [&](TrafficClass q, bool of_rest) {
-    Refusal refusal = *of_preemptable;
+  const auto trace_blocked_preemptable = [&](TrafficClass q, bool of_rest) {
+    BlockedRecord refusal = *of_preemptable;
     refusal.traffic_class = q;
     refusal.of_rest = of_rest;
     tell(simulation, refusal, until);
@@ -233,18 +241,19 @@ void EgressPort::tell_refusals(sim::Simulation& simulation) {
     const TrafficClass q = highest_class(left);
     left = without(left, q);
     if (of_preemptable && merge->is_preemptable(q)) {
-      tell_of_preemptable(q, false);
+      trace_blocked_preemptable(q, false);
     } else if (shaping_) {
-      const FrameIndex first = first_of(q).frame;
-      const sim::TrueTime ready = shaping_->ready_time(now, q, {shared_->traffic->frame(first).length, eligible_of(first)});
-      if (ready != now) tell_refusal(simulation, q, first, ready);
+      const FrameIndex first = head_of_line(q).frame;
+      const sim::TrueTime ready =
+          shaping_->ready_time(now, q, {shared_->traffic->frame(first).length, eligible_of(first)});
+      if (ready != now) trace_blocked(simulation, q, first, ready);
     }
   }
-  if (of_preemptable && merge->rest()) tell_of_preemptable(merge->rest()->traffic_class, true);
+  if (of_preemptable && merge->rest()) trace_blocked_preemptable(merge->rest()->traffic_class, true);
 }
 
 ConfigChange EgressPort::request_gates(sim::Simulation& simulation, const GateConfig& gates) {
-  TAKT_CHECK(!sole_sender_, "it is known before the run that gates will change");
+  TAKT_CHECK(!single_talker_port_, "it is known before the run that gates will change");
   make_shaping();
   const ConfigChange change = shaping_->request_gates(simulation.now(), gates);
   gates_changed(simulation);
@@ -257,7 +266,8 @@ void EgressPort::force_gate(sim::Simulation& simulation, TrafficClass q, std::op
 }
 
 void EgressPort::gates_changed(sim::Simulation& simulation) {
-  if (const sim::TrueTime last_bit = link_.last_bit(); last_bit > simulation.now()) shaping_->check_overrun(simulation.now(), sending_, last_bit);
+  if (const sim::TrueTime last_bit = link_.last_bit(); last_bit > simulation.now())
+    shaping_->check_overrun(simulation.now(), sending_, last_bit);
   note_features();
   ask_again(simulation);
 }
@@ -269,7 +279,7 @@ void EgressPort::clock_changed(sim::Simulation& simulation) {
 }
 
 void EgressPort::ask_again(sim::Simulation& simulation) {
-  promised_ = sim::TrueTime::never();
+  head_eligible_at_ = sim::TrueTime::never();
   if (extras_ && extras_->merge) extras_->merge->gates_changed();
   if (!queues_.empty() || (extras_ && extras_->merge)) decide_later(simulation);
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
@@ -282,13 +292,52 @@ void EgressPort::set_link_up(sim::Simulation& simulation, bool up) {
 
 void EgressPort::flush(sim::Simulation& simulation, DropReason reason) {
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
-    while (queues_.frames(q) > 0) give_up(simulation, pop(simulation, q), reason);
+    while (queues_.frames(q) > 0) drop(simulation, pop(simulation, q), reason);
     if (shaping_) shaping_->none_waits(simulation.now(), q);
   }
   if (extras_ && extras_->merge && extras_->merge->rest()) {
-    give_up(simulation, extras_->merge->rest()->frame, reason);
+    drop(simulation, extras_->merge->rest()->frame, reason);
     extras_->merge->forget_rest();
   }
+}
+
+bool EgressPort::passes_max_sdu(sim::Simulation& simulation, FrameIndex frame) {
+  const Frame& record = shared_->traffic->frame(frame);
+  const std::uint32_t msdu = record.msdu + (record.r_tagged ? r_tag.count : 0);
+  if (shaping_->fits_max_sdu(config_->traffic_class_of_priority[record.queue_priority], msdu)) return true;
+  drop(simulation, frame, DropReason::queue_max_sdu);
+  return false;
+}
+
+/// To a full queue, to one in the order of eligibility, or with a trace sink.
+void EgressPort::enqueue_slow(sim::Simulation& simulation, FrameIndex frame, const Frame& record, TrafficClass q) {
+  DropReason reason{};
+  if (!queues_.has_room(q, record.length, config_->queue_limits[q], reason)) {
+    enqueue_to_full_queue(simulation, frame, q, reason);
+    return;
+  }
+  if (shaping_ && shaping_->is_timed(q))
+    queues_.push_in_order(q, frame, record.length, shared_->entries, [this](FrameIndex f) { return eligible_of(f); });
+  else
+    queues_.push(q, frame, record.length, shared_->entries);
+  if (sim::TraceSink* const trace = simulation.trace())
+    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::enqueued), id(), frame.value, q});
+}
+
+/// The frame is lost, or, if it is to be so and it fits at all, the oldest ones are until it fits.
+void EgressPort::enqueue_to_full_queue(sim::Simulation& simulation, FrameIndex frame, TrafficClass q,
+                                       DropReason reason) {
+  const std::uint32_t length = shared_->traffic->frame(frame).length;
+  const QueueLimit& limit = config_->queue_limits[q];
+  if (!limit.drops_oldest || limit.frames == 0 || length > limit.octets) {
+    drop(simulation, frame, reason);
+    if (shaping_ && queues_.frames(q) == 0) shaping_->none_waits(simulation.now(), q);
+    return;
+  }
+  do drop(simulation, pop(simulation, q), reason);
+  while (!queues_.has_room(q, length, limit, reason));
+  has_new_head_ = shaping_ != nullptr;  // without gates and shapers every head is ready
+  enqueue_slow(simulation, frame, shared_->traffic->frame(frame), q);
 }
 
 }  // namespace takt::models

@@ -58,7 +58,8 @@ class PortQueues {
 
   /// The same into a queue that is in ascending order of eligibility times, behind those of the same time.
   template <class EligibleOf>
-  void push_in_order(TrafficClass q, FrameIndex frame, std::uint32_t length, QueueEntryPool& pool, const EligibleOf& eligible_of) {
+  void push_in_order(TrafficClass q, FrameIndex frame, std::uint32_t length, QueueEntryPool& pool,
+                     const EligibleOf& eligible_of) {
     Queue& queue = queues_[q];
     const auto time = eligible_of(frame);
     if (queue.frames == 0 || eligible_of(pool[queue.tail].frame) <= time) {

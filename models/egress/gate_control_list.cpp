@@ -63,7 +63,8 @@ void GateControlList::lay_out_windows(TrafficClass q) {
     windows_.push_back({std::numeric_limits<std::int64_t>::min() / 4, std::numeric_limits<std::int64_t>::max() / 4});
   } else {
     for (std::uint32_t i = 0; i < count; ++i)
-      if (ahead(i, q).open && !ahead((i + count - 1) % count, q).open) windows_.push_back({intervals_.start(i).ps(), ahead(i, q).toggle_ps});
+      if (ahead(i, q).open && !ahead((i + count - 1) % count, q).open)
+        windows_.push_back({intervals_.start(i).ps(), ahead(i, q).toggle_ps});
     if (windows_.size() > first_window_[q] && windows_.back().until_ps > cycle_time().ps()) {
       const Window before{windows_.back().from_ps - cycle_time().ps(), windows_.back().until_ps - cycle_time().ps()};
       windows_.insert(windows_.begin() + static_cast<std::ptrdiff_t>(first_window_[q]), before);

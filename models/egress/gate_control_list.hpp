@@ -36,14 +36,15 @@ struct OpenShare {
   bool operator==(const OpenShare&) const = default;
 };
 
-/// A list with its cycle time, laid out so that a question about a gate costs one look at one entry. Immutable; ports share it.
+/// A list with its cycle time, laid out so that a question about a gate costs one look at one entry. Immutable; ports
+/// share it.
 class GateControlList {
  public:
   /// Says of a gate that it keeps its state for ever.
   static constexpr std::int64_t no_toggle_ps = std::numeric_limits<std::int64_t>::max();
 
-  /// What a gate does during and after one entry of a regular cycle. Instants count from the start of the cycle in which the
-  /// entry lies; those after its end lie in one of the next two.
+  /// What a gate does during and after one entry of a regular cycle. Instants count from the start of the cycle in
+  /// which the entry lies; those after its end lie in one of the next two.
   struct Ahead {
     std::int64_t toggle_ps = no_toggle_ps;  ///< when the gate next takes its other state
     std::int64_t next_open_ps = 0;          ///< when it next opens; nothing if next_window_ps < 0
@@ -52,7 +53,8 @@ class GateControlList {
     bool open = false;
   };
 
-  /// The list has 1 to 65536 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
+  /// The list has 1 to 65536 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the
+  /// scenario.
   GateControlList(std::span<const GateControlEntry> entries, sim::Duration cycle_time);
 
   const CyclicIntervals& intervals() const { return intervals_; }
@@ -68,9 +70,11 @@ class GateControlList {
     std::int64_t from_ps = 0;
     std::int64_t until_ps = 0;
   };
-  /// The windows of a gate that begin in a cycle, ascending; before them the one that goes on from the cycle before, if there is one. A gate
-  /// that is always open has one window that holds everything.
-  std::span<const Window> windows(TrafficClass q) const { return {windows_.data() + first_window_[q], first_window_[q + 1u] - first_window_[q]}; }
+  /// The windows of a gate that begin in a cycle, ascending; before them the one that goes on from the cycle before, if
+  /// there is one. A gate that is always open has one window that holds everything.
+  std::span<const Window> windows(TrafficClass q) const {
+    return {windows_.data() + first_window_[q], first_window_[q + 1u] - first_window_[q]};
+  }
 
   /// How long the gate is open in a regular cycle.
   OpenShare open_share(TrafficClass q) const { return {open_[q], cycle_time()}; }

@@ -56,7 +56,7 @@ HoldRequest GateSchedule::hold_request(LocalTime now, Duration hold_advance, Dur
   Place place = here(now);
   bool begun = holds_in(place);  // the period that is looked at has begun, whatever the advance
   LocalTime begin = begun ? now : walk_to_hold_change(place);
-  LocalTime end = now;           // of the request, as far as it is known
+  LocalTime end = now;  // of the request, as far as it is known
   bool hold = false;
   for (;;) {
     if (begin == LocalTime::never()) return {hold, hold ? end : begin};
@@ -71,8 +71,11 @@ HoldRequest GateSchedule::hold_request(LocalTime now, Duration hold_advance, Dur
     begin = walk_to_hold_change(place);
     begun = false;
     const Schedule::Span& span = schedule_.span_of(place);
-    if (!hold || begin == LocalTime::never() || !span.repeats || begin - std::max(now, span.from) <= 2 * span.list->cycle_time()) continue;
-    // The advances are longer than each gap of the cycle: what has joined for a whole cycle joins as long as the list runs.
+    if (!hold || begin == LocalTime::never() || !span.repeats ||
+        begin - std::max(now, span.from) <= 2 * span.list->cycle_time())
+      continue;
+    // The advances are longer than each gap of the cycle: what has joined for a whole cycle joins as long as the list
+    // runs.
     if (span.until == LocalTime::never()) return {true, span.until};
     const LocalTime near_end = span.until - 2 * span.list->cycle_time();
     if (near_end <= begin) continue;
@@ -97,7 +100,8 @@ void GateSchedule::move_to(LocalTime now) {
   schedule_.seek(now);
 }
 
-/// Within one span: the instant of the next change of gate q, and the place that makes it; never() if the list has none.
+/// Within one span: the instant of the next change of gate q, and the place that makes it; never() if the list has
+/// none.
 LocalTime GateSchedule::toggle_in_span(Place& place, TrafficClass q) const {
   const Schedule::Span& span = schedule_.span_of(place);
   if (span.list == nullptr) return LocalTime::never();
@@ -130,7 +134,8 @@ LocalTime GateSchedule::walk_to_toggle(Place& place, TrafficClass q) const {
 }
 
 /// Looks at one window after the other; in a list whose windows are all too short only at those near its end.
-StartAnswer GateSchedule::may_start_by_search(const Place& place, TrafficClass q, LocalTime now, Duration duration) const {
+StartAnswer GateSchedule::may_start_by_search(const Place& place, TrafficClass q, LocalTime now,
+                                              Duration duration) const {
   TAKT_CHECK(duration >= Duration(), "a frame lasts for some time");
   Place walk = place;
   if (is_open_in(walk, q) && fits(now, walk_to_toggle(walk, q), duration)) return {true, now};

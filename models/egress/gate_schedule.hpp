@@ -1,4 +1,5 @@
-// The transmission gates of a port as a function of the node's own synchronised time (IEEE 802.1Q clauses 8.6.8.4, 8.6.9).
+// The transmission gates of a port as a function of the node's own synchronised time (IEEE 802.1Q
+// clauses 8.6.8.4, 8.6.9).
 #pragma once
 
 #include <algorithm>
@@ -14,8 +15,8 @@ namespace takt::models {
 /// May a frame start now, and if not, when can that become true?
 struct StartAnswer {
   bool may_start = false;
-  /// If not: the earliest instant after now at which the same question is answered by yes, unless the configuration changes
-  /// before; never() if there is none.
+  /// If not: the earliest instant after now at which the same question is answered by yes, unless the configuration
+  /// changes before; never() if there is none.
   sim::LocalTime ask_again = sim::LocalTime::never();
   bool operator==(const StartAnswer&) const = default;
 };
@@ -36,9 +37,10 @@ struct HoldRequest {
 
 /// The gates of one port. Before the first list runs they are in `admin_gate_states`; the MAC does not hold then.
 ///
-/// All queries take the node's time, which does not decrease from call to call; the list is exchanged by the first call at or
-/// after ConfigChangeTime. Answers about the future assume that no other change is requested; a caller that keeps one asks
-/// again after request_change(). A window is open up to its end and not at it: a frame may end exactly when its gate closes.
+/// All queries take the node's time, which does not decrease from call to call; the list is exchanged by the first call
+/// at or after ConfigChangeTime. Answers about the future assume that no other change is requested; a caller that keeps
+/// one asks again after request_change(). A window is open up to its end and not at it: a frame may end exactly when
+/// its gate closes.
 class GateSchedule {
  public:
   using AdminConfig = CyclicSchedule<GateControlList>::AdminConfig;
@@ -55,8 +57,8 @@ class GateSchedule {
     return schedule_.span_of(place).list == nullptr ? std::nullopt : std::optional<std::size_t>(place.entry);
   }
   bool is_open(TrafficClass q, sim::LocalTime now) { return is_open_in(here(now), q); }
-  /// The first instant at or after `now` at which gate q is closed, looking through consecutive open entries, over the ends of
-  /// cycles and a pending change; never() if it stays open.
+  /// The first instant at or after `now` at which gate q is closed, looking through consecutive open entries, over the
+  /// ends of cycles and a pending change; never() if it stays open.
   sim::LocalTime close_time(TrafficClass q, sim::LocalTime now);
   /// The first instant at or after `now` at which gate q is open; never() if it stays closed.
   sim::LocalTime open_time(TrafficClass q, sim::LocalTime now);
@@ -65,14 +67,17 @@ class GateSchedule {
   /// The first instant after `now` at which any gate changes its state.
   sim::LocalTime next_change(sim::LocalTime now);
 
-  /// True if such a frame may start since it fits into the window in which may_start() has last said that one of the class may, or into the one a cycle later, which is the one that is
-  /// known from then on. False: no answer.
-  bool starts_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) { return is_in_known_window(q, now, duration) || is_in_next_known_window(q, now, duration); }
-  /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes (8.6.8.4)?
-  /// Which octets are part of the duration is the caller's choice.
+  /// True if such a frame may start since it fits into the window in which may_start() has last said that one of the
+  /// class may, or into the one a cycle later, which is the one that is known from then on. False: no answer.
+  bool starts_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+    return is_in_known_window(q, now, duration) || is_in_next_known_window(q, now, duration);
+  }
+  /// May a frame of class q that lasts for `duration` (not negative) start now and end before its gate closes
+  /// (8.6.8.4)? Which octets are part of the duration is the caller's choice.
   StartAnswer may_start(TrafficClass q, sim::LocalTime now, sim::Duration duration) {
     const Schedule::Span& present = schedule_.present();
-    if (present.repeats && present.until == sim::LocalTime::never()) [[likely]] return may_start_in_list(present, q, now, duration);
+    if (present.repeats && present.until == sim::LocalTime::never()) [[likely]]
+      return may_start_in_list(present, q, now, duration);
     const Place& place = here(now);
     const Schedule::Span& span = schedule_.present();
     if (span.repeats) {
@@ -90,17 +95,30 @@ class GateSchedule {
   bool holds(sim::LocalTime now) { return holds_in(here(now)); }
   /// The first instant after `now` at which holds() changes.
   sim::LocalTime next_hold_change(sim::LocalTime now);
-  /// What the MAC is asked for: hold from hold_advance before the entry that holds to release_advance before the entry that
-  /// releases; periods that meet by that are one. Costs a walk along the list: the caller keeps the answer until `until`.
+  /// What the MAC is asked for: hold from hold_advance before the entry that holds to release_advance before the entry
+  /// that releases; periods that meet by that are one. Costs a walk along the list: the caller keeps the answer until
+  /// `until`.
   HoldRequest hold_request(sim::LocalTime now, sim::Duration hold_advance, sim::Duration release_advance);
 
   /// The part of the running list's cycle in which gate q is open; {1, 1} or {0, 1} before the first list.
   OpenShare open_share(TrafficClass q, sim::LocalTime now);
 
-  const GateControlList* oper_control_list(sim::LocalTime now) { here(now); return schedule_.oper_control_list(); }
-  sim::LocalTime oper_base_time(sim::LocalTime now) { here(now); return schedule_.oper_base_time(); }
-  sim::Duration oper_cycle_time_extension(sim::LocalTime now) { here(now); return schedule_.oper_cycle_time_extension(); }
-  bool config_pending(sim::LocalTime now) { here(now); return schedule_.config_pending(); }
+  const GateControlList* oper_control_list(sim::LocalTime now) {
+    here(now);
+    return schedule_.oper_control_list();
+  }
+  sim::LocalTime oper_base_time(sim::LocalTime now) {
+    here(now);
+    return schedule_.oper_base_time();
+  }
+  sim::Duration oper_cycle_time_extension(sim::LocalTime now) {
+    here(now);
+    return schedule_.oper_cycle_time_extension();
+  }
+  bool config_pending(sim::LocalTime now) {
+    here(now);
+    return schedule_.config_pending();
+  }
   sim::LocalTime config_change_time() const { return schedule_.config_change_time(); }
   std::uint64_t config_change_error() const { return schedule_.config_change_error(); }
 
@@ -109,7 +127,8 @@ class GateSchedule {
   using Place = Schedule::Place;
 
   const Place& here(sim::LocalTime now) {
-    if (!schedule_.is_at(now)) [[unlikely]] move_to(now);
+    if (!schedule_.is_at(now)) [[unlikely]]
+      move_to(now);
     return schedule_.here();
   }
   void move_to(sim::LocalTime now);
@@ -122,7 +141,8 @@ class GateSchedule {
   sim::LocalTime walk_to_toggle(Place& place, TrafficClass q) const;
   sim::LocalTime toggle_in_span(Place& place, TrafficClass q) const;
   /// The same under a list that runs for ever: one look at the windows of the class.
-  StartAnswer may_start_in_list(const Schedule::Span& span, TrafficClass q, sim::LocalTime now, sim::Duration duration) {
+  StartAnswer may_start_in_list(const Schedule::Span& span, TrafficClass q, sim::LocalTime now,
+                                sim::Duration duration) {
     const GateControlList& list = *span.list;
     if (cursor_list_ != &list || cursor_anchor_ != span.anchor) [[unlikely]] {
       cursor_list_ = &list;
@@ -131,7 +151,9 @@ class GateSchedule {
     const std::int64_t cycle_ps = list.cycle_time().ps();
     std::int64_t at_ps = (now - cursor_).ps();
     if (at_ps < 0 || at_ps >= cycle_ps) {
-      cursor_ += at_ps >= 0 && at_ps < 2 * cycle_ps ? list.cycle_time() : list.cycle_time() * list.intervals().cycles_in(sim::Duration::from_ps(at_ps));
+      cursor_ += at_ps >= 0 && at_ps < 2 * cycle_ps
+                     ? list.cycle_time()
+                     : list.cycle_time() * list.intervals().cycles_in(sim::Duration::from_ps(at_ps));
       at_ps = (now - cursor_).ps();
     }
     const std::span<const GateControlList::Window> windows = list.windows(q);
@@ -164,7 +186,8 @@ class GateSchedule {
       const sim::LocalTime from = moved(cursor_, window.from_ps);
       known_ = {q, cycle, from, moved(cursor_, window.until_ps), moved(from, cycle.ps())};
     } else {
-      known_ = {q, cycle, sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()), sim::LocalTime::never(), sim::LocalTime::never()};   // it is always open
+      known_ = {q, cycle, sim::LocalTime::from_ps(std::numeric_limits<std::int64_t>::min()), sim::LocalTime::never(),
+                sim::LocalTime::never()};  // it is always open
     }
   }
   bool is_in_known_window(TrafficClass q, sim::LocalTime now, sim::Duration duration) const {
@@ -192,9 +215,9 @@ class GateSchedule {
   struct KnownWindow {
     TrafficClass traffic_class = 0;
     sim::Duration cycle;
-    sim::LocalTime from = sim::LocalTime::never();   // at first one that holds no instant
+    sim::LocalTime from = sim::LocalTime::never();  // at first one that holds no instant
     sim::LocalTime until;
-    sim::LocalTime next_from = sim::LocalTime::never();   // a cycle later
+    sim::LocalTime next_from = sim::LocalTime::never();  // a cycle later
   };
   KnownWindow known_;
   bool hold_before_present_ = false;  // whether the MAC held when the present span began

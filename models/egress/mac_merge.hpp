@@ -1,5 +1,5 @@
-// The MAC Merge sublayer of a sending port (IEEE 802.3 clause 99): which preemptable frame is under way, which one has been cut
-// and waits for its continuation, whether the MAC is asked to hold.
+// The MAC Merge sublayer of a sending port (IEEE 802.3 clause 99): which preemptable frame is under way, which one has
+// been cut and waits for its continuation, whether the MAC is asked to hold.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,9 @@ class MacMerge {
   struct UnderWay {
     FrameIndex frame;
     TrafficClass traffic_class = 0;
-    sim::TrueTime start;        ///< first bit of its preamble
-    Octets remaining{0};        ///< of the frame at the start of the fragment, FCS included
-    sim::TrueTime arrival;      ///< when the peer was told that the frame would come
+    sim::TrueTime start;    ///< first bit of its preamble
+    Octets remaining{0};    ///< of the frame at the start of the fragment, FCS included
+    sim::TrueTime arrival;  ///< when the frame's arrival was scheduled at the peer
   };
   /// What is left of a frame that was cut.
   struct Rest {
@@ -28,12 +28,13 @@ class MacMerge {
     Octets remaining{0};
   };
   struct Cut {
-    Octets data{0};             ///< octets of the frame in the fragment that ends
-    sim::TrueTime free_at;      ///< when mCRC and gap are over
+    Octets data{0};         ///< octets of the frame in the fragment that ends
+    sim::TrueTime free_at;  ///< when mCRC and gap are over
   };
 
   MacMerge(const PreemptionConfig& config, sim::Duration octet_time)
-      : config_(config), octet_time_(octet_time),
+      : config_(config),
+        octet_time_(octet_time),
         hold_advance_(config.hold_advance.value_or(octet_time * longest_express_wait(config.add_frag_size).count)) {}
 
   bool is_preemptable(TrafficClass q) const { return contains(config_.preemptable, q); }
@@ -57,7 +58,8 @@ class MacMerge {
   std::optional<Cut> earliest_cut(sim::TrueTime now) const {
     const sim::Duration elapsed = now - under_way_->start;
     const std::int64_t octets = (elapsed.ps() + octet_time_.ps() - 1) / octet_time_.ps();
-    const std::optional<Octets> data = cut_after({static_cast<std::uint32_t>(octets)}, under_way_->remaining, config_.add_frag_size);
+    const std::optional<Octets> data =
+        cut_after({static_cast<std::uint32_t>(octets)}, under_way_->remaining, config_.add_frag_size);
     if (!data) return std::nullopt;
     return Cut{*data, under_way_->start + octet_time_ * wire_length_of_cut_fragment(*data).count};
   }
@@ -67,8 +69,8 @@ class MacMerge {
     ++fragments_cut_;
   }
 
-  /// Whether the MAC is asked to hold preemptable frames at `now`, and until when that stays so. The gates run on local time;
-  /// their answer is kept until it may change.
+  /// Whether the MAC is asked to hold preemptable frames at `now`, and until when that stays so. The gates run on local
+  /// time; their answer is kept until it may change.
   HoldRequest hold_request(GateSchedule& gates, sim::LocalTime now) {
     if (now >= hold_.until || now < hold_asked_) {
       hold_ = gates.hold_request(now, hold_advance_, config_.release_advance);

@@ -20,7 +20,8 @@ inline constexpr std::array<TrafficClass, 8> identity_traffic_classes = {0, 1, 2
 struct QueueLimit {
   std::uint32_t frames = 0xFFFF'FFFF;
   std::uint32_t octets = 0xFFFF'FFFF;  ///< lengths from DA to FCS
-  bool drops_oldest = false;           ///< a frame that finds no room takes the place of those at the head, not the other way round
+  bool drops_oldest =
+      false;  ///< a frame that finds no room takes the place of those at the head, not the other way round
   constexpr bool is_finite() const { return frames != 0xFFFF'FFFF || octets != 0xFFFF'FFFF; }
   bool operator==(const QueueLimit&) const = default;
 };

@@ -22,7 +22,7 @@ struct GateConfig {
   sim::Duration admin_cycle_time;
   sim::Duration admin_cycle_time_extension;
   sim::LocalTime admin_base_time;
-  bool is_running = false;   ///< set before the start: a list whose base time lies in the past is in force then
+  bool is_running = false;  ///< set before the start: a list whose base time lies in the past is in force then
   bool operator==(const GateConfig&) const = default;
 };
 
@@ -41,20 +41,21 @@ struct CreditBased {
   bool has_launch_times = false;
   bool operator==(const CreditBased&) const = default;
 };
-/// Frames wait for their eligibility time and are sent in its order: ATS (8.6.8.5), and launch times of a network interface.
+/// Frames wait for their eligibility time and are sent in its order: ATS (8.6.8.5), and launch times of a network
+/// interface.
 struct TimeBased {
   bool operator==(const TimeBased&) const = default;
 };
 /// 8.6.8.3: the class shares what all classes with other algorithms leave with the others that have this one.
 struct EnhancedTransmissionSelection {
-  std::uint8_t bandwidth = 0;   ///< percent, 1 to 100; those of a port sum to 100
+  std::uint8_t bandwidth = 0;  ///< percent, 1 to 100; those of a port sum to 100
   bool operator==(const EnhancedTransmissionSelection&) const = default;
 };
 using SelectionAlgorithm = std::variant<StrictPriority, CreditBased, TimeBased, EnhancedTransmissionSelection>;
 
 /// Frame preemption of a port (IEEE 802.1Q 6.7.2, 12.30; IEEE 802.3 clause 99).
 struct PreemptionConfig {
-  ClassSet preemptable = 0;                         ///< the classes with frame preemption status preemptable; the others are express
+  ClassSet preemptable = 0;  ///< the classes with frame preemption status preemptable; the others are express
   AddFragSize add_frag_size;
   /// How long before an entry that holds the MAC is asked to; as long as an express frame waits at most if absent.
   std::optional<sim::Duration> hold_advance;

@@ -12,9 +12,13 @@ DeliveryBook::Entry& DeliveryBook::entry_of(StreamIndex stream) {
   return entries_[stream.value];
 }
 
-void DeliveryBook::keep_account(StreamIndex stream, sim::TrueTime from) { entry_of(stream).accounts.emplace_back().from = from; }
+void DeliveryBook::keep_account(StreamIndex stream, sim::TrueTime from) {
+  entry_of(stream).accounts.emplace_back().from = from;
+}
 
-void DeliveryBook::keep_arrivals(StreamIndex stream, NodeIndex listener) { entry_of(stream).arrivals.push_back({listener}); }
+void DeliveryBook::keep_arrivals(StreamIndex stream, NodeIndex listener) {
+  entry_of(stream).arrivals.push_back({listener});
+}
 
 void DeliveryBook::deliver(const Frame& frame, NodeIndex listener, sim::TrueTime now) {
   if (!concerns(frame.stream)) return;
@@ -57,7 +61,8 @@ void DeliveryBook::adopt(const DeliveryBook& other) {
       account.first_sequence = std::min(account.first_sequence, more.first_sequence);
       account.delivered += more.delivered;
       account.latency.add(more.latency);
-      for (std::size_t reason = 0; reason < account.dropped.size(); ++reason) account.dropped[reason] += more.dropped[reason];
+      for (std::size_t reason = 0; reason < account.dropped.size(); ++reason)
+        account.dropped[reason] += more.dropped[reason];
     }
     for (std::size_t l = 0; l < entries_[e].arrivals.size(); ++l) {
       const Arrivals& more = other.entries_[e].arrivals[l];
@@ -69,7 +74,8 @@ void DeliveryBook::adopt(const DeliveryBook& other) {
 }
 
 std::span<const LaterAccount> DeliveryBook::accounts(StreamIndex stream) const {
-  return concerns(stream) ? std::span<const LaterAccount>(entries_[stream.value].accounts) : std::span<const LaterAccount>();
+  return concerns(stream) ? std::span<const LaterAccount>(entries_[stream.value].accounts)
+                          : std::span<const LaterAccount>();
 }
 
 std::span<const DeliveryBook::Arrivals> DeliveryBook::arrivals(StreamIndex stream) const {

@@ -1,5 +1,5 @@
-// What is known of deliveries beyond the account that every stream has: accounts that begin later, and which frames have reached whom.
-// Only streams for which that is asked are in it; the others cost nothing.
+// What is known of deliveries beyond the account that every stream has: accounts that begin later, and which frames
+// have reached whom. Only streams for which that is asked are in it; the others cost nothing.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ class DeliveryBook {
  public:
   /// Frames of the stream that are produced at `from` or later are counted apart as well. Before the run.
   void keep_account(StreamIndex stream, sim::TrueTime from);
-  /// Frames of the stream may come to the listener several times: the first copies are told from the others. Before the run.
+  /// Frames of the stream may arrive at the listener several times: first copies are counted apart. Before the run.
   void keep_arrivals(StreamIndex stream, NodeIndex listener);
 
   /// Whether anything is kept of the stream.
@@ -45,7 +45,7 @@ class DeliveryBook {
   struct Arrivals {
     NodeIndex listener;
     SequenceLedger ledger = {};
-    std::vector<std::uint64_t> firsts = {};   ///< by account: the first sequence number of it that has come here
+    std::vector<std::uint64_t> firsts = {};  ///< by account: the first sequence number of it that has come here
   };
   /// By listener; empty if every frame comes at most once.
   std::span<const Arrivals> arrivals(StreamIndex stream) const;
@@ -59,7 +59,7 @@ class DeliveryBook {
   Entry& entry_of(StreamIndex stream);
   static void arrive(Arrivals& arrivals, const Entry& entry, const Frame& frame);
 
-  std::vector<Entry> entries_;   // by stream
+  std::vector<Entry> entries_;  // by stream
 };
 
 }  // namespace takt::models

@@ -11,7 +11,8 @@ namespace takt::models {
 class FrameExchange {
  public:
   virtual ~FrameExchange() = default;
-  /// The frame, a copy of which ends here, will be at the node for which `arrival` is (NodeEvent::frame_arrived, with all but the frame of its argument).
+  /// The frame, a copy of which ends here, will be at the node for which `arrival` is (NodeEvent::frame_arrived, with
+  /// all but the frame of its argument).
   virtual void send(std::uint32_t part, const sim::Event& arrival, FrameIndex frame) = 0;
 };
 

@@ -37,8 +37,9 @@ class ChunkedSlots {
   std::vector<std::unique_ptr<T[]>> chunks_;
 };
 
-/// Each occupied slot is an allocation of its own, made anew each time, and the pool grows whenever it can: whoever looks at what has
-/// been freed, beside a slot or through a handle of which nothing is left, is found by AddressSanitizer or by a CHECK.
+/// Each occupied slot is an allocation of its own, made anew each time, and the pool grows whenever it can: whoever
+/// looks at what has been freed, beside a slot or through a handle of which nothing is left, is found by
+/// AddressSanitizer or by a CHECK.
 template <class T>
 class LoneSlots {
  public:
@@ -56,17 +57,19 @@ class LoneSlots {
   std::vector<std::unique_ptr<T>> slots_;
 };
 
-/// A pool of T with stable addresses; freed slots are used again, the last one first, so that they are warm in the cache.
+/// A pool of T with stable addresses; freed slots are used again, the last one first, so that they are warm in the
+/// cache.
 template <class T, class Handle, class Slots>
 class BasicPool {
  public:
   T& operator[](Handle handle) { return slots_[handle.value]; }
   const T& operator[](Handle handle) const { return slots_[handle.value]; }
-  /// For who cannot know whether that is still there: null, or what has the handle now.
+  /// Lookup of a possibly stale handle: null, or its current owner.
   T* find(Handle handle) { return slots_.find(handle.value); }
 
   Handle allocate() {
-    if (free_count_ == 0) [[unlikely]] grow();
+    if (free_count_ == 0) [[unlikely]]
+      grow();
     const Handle handle = free_[--free_count_];
     slots_.occupy(handle.value);
     return handle;
@@ -77,7 +80,8 @@ class BasicPool {
     free_[free_count_++] = handle;
   }
   std::size_t live() const { return free_.size() - free_count_; }
-  /// Calls visit(what) for each that is under way, in no particular order. For the end of a run: it looks at the whole pool.
+  /// Calls visit(what) for each that is under way, in no particular order. For the end of a run: it looks at the whole
+  /// pool.
   template <class Visit>
   void for_each_live(Visit&& visit) const {
     std::vector<bool> is_free(slots_.count(), false);
@@ -95,7 +99,8 @@ class BasicPool {
   }
 
   Slots slots_;
-  std::vector<Handle> free_;  ///< as long as there are slots, so that freeing never asks for room; the first free_count_ of them count
+  std::vector<Handle>
+      free_;  ///< as long as there are slots, so that freeing never asks for room; the first free_count_ of them count
   std::size_t free_count_ = 0;
 };
 

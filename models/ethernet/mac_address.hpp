@@ -28,8 +28,9 @@ inline constexpr MacAddress all_ones_mask{0xFFFF'FFFF'FFFF};
 /// The nearest-bridge group address, to which gPTP speaks; no bridge forwards it (IEEE 802.1AS 11.3.4).
 inline constexpr AddressIndex gptp_address{0x00FF'FFFF};
 
-/// 02-00-5E-xx-xx-xx for a node, 03-00-5E-xx-xx-xx for a group: locally administered, the index in the last three octets.
-/// Addresses below `first_group` (the number of nodes of the network) are those of nodes; an index has at most 24 bits.
+/// 02-00-5E-xx-xx-xx for a node, 03-00-5E-xx-xx-xx for a group: locally administered, the index in the last three
+/// octets. Addresses below `first_group` (the number of nodes of the network) are those of nodes; an index has at most
+/// 24 bits.
 constexpr MacAddress mac_address_of(AddressIndex address, std::uint32_t first_group) {
   if (address == gptp_address) return {0x01'80'C2'00'00'0E};
   TAKT_CHECK(address.value < 1u << 24, "an address index fits into three octets");

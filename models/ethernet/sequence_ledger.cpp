@@ -6,7 +6,8 @@ namespace takt::models {
 
 /// The first gap that does not end before the sequence number.
 std::size_t SequenceLedger::at_or_after(std::uint64_t sequence) const {
-  const auto found = std::lower_bound(gaps_.begin(), gaps_.end(), sequence, [](const Gap& gap, std::uint64_t s) { return gap.last < s; });
+  const auto found = std::lower_bound(gaps_.begin(), gaps_.end(), sequence,
+                                      [](const Gap& gap, std::uint64_t s) { return gap.last < s; });
   return static_cast<std::size_t>(found - gaps_.begin());
 }
 
@@ -51,8 +52,10 @@ void SequenceLedger::fold(std::span<const std::uint64_t> boundaries) {
   const auto half = gaps_.begin() + static_cast<std::ptrdiff_t>(gaps_.size() / 2);
   std::vector<Gap> folded;
   for (auto gap = gaps_.begin(); gap != half; ++gap) {
-    const bool may_join = !folded.empty() && std::none_of(boundaries.begin(), boundaries.end(),
-                                                          [&](std::uint64_t boundary) { return boundary > folded.back().first && boundary <= gap->last; });
+    const bool may_join =
+        !folded.empty() && std::none_of(boundaries.begin(), boundaries.end(), [&](std::uint64_t boundary) {
+          return boundary > folded.back().first && boundary <= gap->last;
+        });
     if (may_join) {
       folded.back().last = gap->last;
       folded.back().missing += gap->missing;

@@ -8,8 +8,9 @@
 
 namespace takt::models {
 
-/// Remembers what is missing: the gaps between the sequence numbers that have come. Its memory is bounded: where there are very many gaps, only the
-/// number of missing ones is kept of the older half, and a copy that comes so late fills none.
+/// Remembers what is missing: the gaps between the sequence numbers that have come. Its memory is bounded: where there
+/// are very many gaps, only the number of missing ones is kept of the older half, and a copy that comes so late fills
+/// none.
 class SequenceLedger {
  public:
   /// A copy of that frame has come.

@@ -9,9 +9,9 @@ namespace takt::models {
 
 inline constexpr Octets preamble_and_sfd{8};
 inline constexpr Octets inter_packet_gap{12};
-inline constexpr Octets mac_header{14};      // DA 6, SA 6, EtherType 2
-inline constexpr Octets vlan_tag{4};         // TPID 0x8100, PCP 3, DEI 1, VID 12
-inline constexpr Octets r_tag{6};            // IEEE 802.1CB clause 7.8
+inline constexpr Octets mac_header{14};  // DA 6, SA 6, EtherType 2
+inline constexpr Octets vlan_tag{4};     // TPID 0x8100, PCP 3, DEI 1, VID 12
+inline constexpr Octets r_tag{6};        // IEEE 802.1CB clause 7.8
 inline constexpr Octets frame_check_sequence{4};
 inline constexpr Octets mcrc{4};             // at the end of a fragment that is not the last (IEEE 802.3 clause 99)
 inline constexpr Octets minimum_frame{64};   // DA to FCS, the tag included

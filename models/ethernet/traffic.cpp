@@ -10,7 +10,9 @@ StreamIndex Traffic::add_stream(Stream stream) {
   const StreamIndex index{static_cast<std::uint32_t>(streams_.size())};
   // What does not change from frame to frame is part of the place, so that it costs nothing.
   stream.production = sim::Digest::key_of(static_cast<std::uint32_t>(Occurrence::produced),
-                                          sim::Content(index.value, stream.source.value, stream.destination.value, stream.vlan, stream.priority, stream.tagged).value());
+                                          sim::Content(index.value, stream.source.value, stream.destination.value,
+                                                       stream.vlan, stream.priority, stream.tagged)
+                                              .value());
   streams_.push_back(std::move(stream));
   return index;
 }
@@ -75,14 +77,17 @@ void Traffic::adopt(const Traffic& other) {
     stream.delivered += more.delivered;
     stream.copies += more.copies;
     stream.latency.add(more.latency);
-    for (std::size_t reason = 0; reason < stream.dropped.size(); ++reason) stream.dropped[reason] += more.dropped[reason];
+    for (std::size_t reason = 0; reason < stream.dropped.size(); ++reason)
+      stream.dropped[reason] += more.dropped[reason];
   }
   book_.adopt(other.book_);
   adopted_.push_back(&other);
 }
 
 FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::TrueTime now) { return make(index, payload, now); }
-FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) { return make(index, octets, now); }
+FrameIndex Traffic::produce(StreamIndex index, std::span<const std::byte> octets, sim::TrueTime now) {
+  return make(index, octets, now);
+}
 
 FrameIndex Traffic::produce(StreamIndex index, Octets payload, sim::Simulation& simulation) {
   const FrameIndex handle = make(index, payload, simulation.now());
@@ -104,15 +109,17 @@ FrameIndex Traffic::separate(FrameIndex index, sim::ComponentId where) {
   frames_[made].references = 1;
   if (!original.payload.is_none()) ++payloads_[original.payload].references;
   --original.references;
-  if (told_ != nullptr && told_->trace() != nullptr)
-    told_->trace()->record({told_->now(), static_cast<std::uint32_t>(Occurrence::separated), where, made.value, index.value});
+  if (traced_run_ != nullptr && traced_run_->trace() != nullptr)
+    traced_run_->trace()->record(
+        {traced_run_->now(), static_cast<std::uint32_t>(Occurrence::separated), where, made.value, index.value});
   return made;
 }
 
 void Traffic::drop(FrameIndex index, DropReason reason, sim::ComponentId where, sim::Simulation& simulation) {
   const Frame& frame = frames_[index];
   ++streams_[frame.stream.value].dropped[static_cast<std::size_t>(reason)];
-  if (!book_.is_empty()) [[unlikely]] book_.drop(frame, reason);
+  if (!book_.is_empty()) [[unlikely]]
+    book_.drop(frame, reason);
   simulation.digest().add(static_cast<std::uint32_t>(Occurrence::drop),
                           static_cast<std::uint64_t>(frame.stream.value) << 32 | where.index, simulation.now(),
                           record_of(frame) ^ sim::mix64(static_cast<std::uint64_t>(reason) + 1));

@@ -27,18 +27,18 @@ enum class Occurrence : std::uint32_t {
   clock_step = 10,     ///< a servo has stepped a node's clock; what = the step (digest only)
   clock_rate = 13,     ///< a servo has set the rate of a node's clock; what = the adjustment (digest only)
   clock_message = 14,  ///< a gPTP message came to a node; what = its octets (digest only)
-  gates_changed = 9,   ///< a port was told of other gates, or one of its gates breaks (trace only)
+  gates_changed = 9,   ///< a port got other gates, or one of its gates breaks (trace only)
   received = 11,  ///< a frame reaches the applications of a host; what = frame, detail = stream and node (trace only)
   output_changed =
       12,            ///< a digital output of an application changes; what = its number, detail = its level (trace only)
   dequeued = 8,      ///< a frame leaves a queue, to be sent or because it is given up (trace only)
   job_done = 15,     ///< a thread of a processor has done a job; what = its response time (digest only)
   refused = 16,      ///< frames of a class wait although the medium is free; what = until when at most, as a true time,
-                     ///< detail = Refusal (trace only)
+                     ///< detail = BlockedRecord (trace only)
   processing = 17,   ///< a frame waits for the processor of its host, or is on it; what = frame (trace only)
-  arrived = 18,      ///< a frame has come to a node; what = frame, detail = ArrivalDetail (Network::tell_ways() only)
+  arrived = 18,      ///< a frame has come to a node; what = frame, detail = ArrivalDetail (Network::trace_paths() only)
   separated = 19,    ///< a copy of a frame goes on as another record; what = that one, detail = the one before
-                     ///< (Network::tell_ways() only)
+                     ///< (Network::trace_paths() only)
   gates_shown = 20,  ///< the gates of a port are so from now on; what = bit q: that of class q is open (told by who
                      ///< follows gates, not by the port)
   stored = 22,       ///< the header of a frame has come, which is not cut through; detail = StoringDetail (trace only)
@@ -59,13 +59,15 @@ constexpr bool names_a_frame(Occurrence kind) {
     case Occurrence::received:
     case Occurrence::processing:
     case Occurrence::stored:
-    case Occurrence::arrived: return true;
-    default: return false;
+    case Occurrence::arrived:
+      return true;
+    default:
+      return false;
   }
 }
 
 /// Why a class of a port with a free medium may not start its first frame.
-enum class Hindrance : std::uint8_t {
+enum class BlockReason : std::uint8_t {
   gate_closed,   ///< its transmission gate is closed; amount = the entry of the list, from 0, or no_entry
   guard,         ///< the frame would not end before its gate closes; amount = the entry of the list, or no_entry
   credit,        ///< its credit is negative; amount = how many bits are missing, rounded up
@@ -74,18 +76,21 @@ enum class Hindrance : std::uint8_t {
   count
 };
 
-/// The detail of a trace record of refused. It holds for the class until the port decides again, at the longest until the time that the record names.
-struct Refusal {
+/// The detail of a trace record of refused. It holds for the class until the port decides again, at the longest until
+/// the time that the record names.
+struct BlockedRecord {
   static constexpr std::uint32_t no_entry = 0xFFFF'FFFF;
-  Hindrance hindrance = Hindrance::gate_closed;
+  BlockReason hindrance = BlockReason::gate_closed;
   TrafficClass traffic_class = 0;
-  bool of_rest = false;         ///< of a frame that was cut
+  bool of_rest = false;  ///< of a frame that was cut
   std::uint32_t amount = 0;
   constexpr std::uint64_t pack() const {
-    return static_cast<std::uint64_t>(hindrance) << 56 | static_cast<std::uint64_t>(traffic_class) << 48 | static_cast<std::uint64_t>(of_rest) << 40 | amount;
+    return static_cast<std::uint64_t>(hindrance) << 56 | static_cast<std::uint64_t>(traffic_class) << 48 |
+           static_cast<std::uint64_t>(of_rest) << 40 | amount;
   }
-  static constexpr Refusal unpack(std::uint64_t detail) {
-    return {static_cast<Hindrance>(detail >> 56), static_cast<TrafficClass>(detail >> 48 & 0xFF), (detail >> 40 & 1) != 0, static_cast<std::uint32_t>(detail)};
+  static constexpr BlockedRecord unpack(std::uint64_t detail) {
+    return {static_cast<BlockReason>(detail >> 56), static_cast<TrafficClass>(detail >> 48 & 0xFF),
+            (detail >> 40 & 1) != 0, static_cast<std::uint32_t>(detail)};
   }
 };
 
@@ -105,17 +110,17 @@ enum class Storing : std::uint8_t {
 /// The detail of a trace record of stored.
 struct StoringDetail {
   Storing reason = Storing::not_asked_to;
-  Refusal refusal = {};  ///< of `refused`
+  BlockedRecord refusal = {};  ///< of `refused`
   constexpr std::uint64_t pack() const {
     return static_cast<std::uint64_t>(reason) << 60 | (refusal.pack() & 0x0FFF'FFFF'FFFF'FFFF);
   }
   static constexpr StoringDetail unpack(std::uint64_t detail) {
-    return {static_cast<Storing>(detail >> 60), Refusal::unpack(detail & 0x0FFF'FFFF'FFFF'FFFF)};
+    return {static_cast<Storing>(detail >> 60), BlockedRecord::unpack(detail & 0x0FFF'FFFF'FFFF'FFFF)};
   }
 };
 
-/// The detail of a trace record of started, cut or resumed: octets (of the frame; of the fragment that ends; of the rest, FCS
-/// included) and traffic class.
+/// The detail of a trace record of started, cut or resumed: octets (of the frame; of the fragment that ends; of the
+/// rest, FCS included) and traffic class.
 struct TransmissionDetail {
   std::uint32_t octets = 0;
   TrafficClass traffic_class = 0;
@@ -141,26 +146,26 @@ struct ArrivalDetail {
 
 /// One stream: its addressing and its account.
 struct alignas(64) Stream {
-  std::uint64_t sent = 0;          ///< frames produced by the talker
-  std::uint64_t delivered = 0;     ///< frames handed to listeners
-  std::uint64_t copies = 0;        ///< extra copies made by bridges for multicast
-  sim::Digest::Key production;     ///< of the records of its frames' production; made by Traffic::add_stream
+  std::uint64_t sent = 0;       ///< frames produced by the talker
+  std::uint64_t delivered = 0;  ///< frames handed to listeners
+  std::uint64_t copies = 0;     ///< extra copies made by bridges for multicast
+  sim::Digest::Key production;  ///< of the records of its frames' production; made by Traffic::add_stream
   AddressIndex source;
   AddressIndex destination;
-  Octets headers{0};               ///< octets between EtherType and payload (28 for UDP over IPv4)
+  Octets headers{0};  ///< octets between EtherType and payload (28 for UDP over IPv4)
   VlanId vlan = 0;
   Priority priority = 0;
   bool tagged = false;
   bool link_local = false;
-  std::uint16_t ether_type = 0;    ///< of what is neither IP nor without meaning; 0: takt's choice
-  alignas(64) sim::Histogram latency;   ///< from production to delivery, all listeners
+  std::uint16_t ether_type = 0;        ///< of what is neither IP nor without meaning; 0: takt's choice
+  alignas(64) sim::Histogram latency;  ///< from production to delivery, all listeners
   std::array<std::uint64_t, static_cast<std::size_t>(DropReason::count)> dropped{};
   std::string name;
   NodeIndex talker;
   std::uint32_t listeners = 1;
-  std::uint16_t udp_port = 0;      ///< of the receivers; 0: takt's choice
+  std::uint16_t udp_port = 0;         ///< of the receivers; 0: takt's choice
   std::uint16_t udp_source_port = 0;  ///< of the sender; 0: takt's choice
-  std::uint32_t ip_group = 0;      ///< IPv4 multicast address to which it goes; 0: takt's choice
+  std::uint32_t ip_group = 0;         ///< IPv4 multicast address to which it goes; 0: takt's choice
 
   std::uint64_t dropped_in_all() const {
     std::uint64_t sum = 0;
@@ -191,13 +196,14 @@ class Traffic {
   FrameIndex produce(StreamIndex stream, Octets payload, sim::Simulation& simulation);
   /// The same with octets, which are copied.
   FrameIndex produce(StreamIndex stream, std::span<const std::byte> payload, sim::Simulation& simulation);
-  /// The same, but for the digest: who makes the frame changes it first, and tells count_production() then.
+  /// The same without the digest: the caller changes the frame first, then calls count_production().
   FrameIndex produce(StreamIndex stream, Octets payload, sim::TrueTime now);
   FrameIndex produce(StreamIndex stream, std::span<const std::byte> payload, sim::TrueTime now);
 
   /// A frame that another part of a divided run has sent, with its octets, if it has any, goes on here.
   FrameIndex take_over(const Frame& frame, std::span<const std::byte> payload);
-  /// What another part of a divided run has counted, and the frames that are under way there, count here, too. It stays as it is from now on, and outlives this.
+  /// What another part of a divided run has counted, and the frames that are under way there, count here, too. It stays
+  /// as it is from now on, and outlives this.
   void adopt(const Traffic& other);
 
   /// One more copy of the frame is under way.
@@ -208,9 +214,12 @@ class Traffic {
     ++streams_[frame.stream.value].copies;
   }
 
-  /// A record that may be changed, because no other copy of the frame shares it: the same one if that is so already, a new one
-  /// otherwise. The caller's copy goes on as the record that is returned. Whoever records the run is told that it happened at component `where`.
-  FrameIndex own(FrameIndex index, sim::ComponentId where) { return frames_[index].references == 1 ? index : separate(index, where); }
+  /// A record that may be changed, because no other copy of the frame shares it: the same one if that is so already, a
+  /// new one otherwise. The caller's copy goes on as the record that is returned. Emits a trace record at component
+  /// `where`.
+  FrameIndex own(FrameIndex index, sim::ComponentId where) {
+    return frames_[index].references == 1 ? index : separate(index, where);
+  }
   /// One more copy of the frame, with a record of its own.
   FrameIndex duplicate(FrameIndex index, sim::ComponentId where) {
     copy(index);
@@ -226,13 +235,15 @@ class Traffic {
 
   /// The frame was produced at this instant.
   void count_production(const Frame& frame, sim::Simulation& simulation) const {
-    simulation.digest().add(streams_[frame.stream.value].production, frame.produced,
-                            sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.length) << 32 | frame.source.value));
+    simulation.digest().add(
+        streams_[frame.stream.value].production, frame.produced,
+        sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.length) << 32 | frame.source.value));
   }
 
   /// The digest's key of deliveries of the stream at `listener`.
   static constexpr sim::Digest::Key delivery_key(StreamIndex stream, NodeIndex listener) {
-    return sim::Digest::key_of(static_cast<std::uint32_t>(Occurrence::delivery), static_cast<std::uint64_t>(stream.value) << 32 | listener.value);
+    return sim::Digest::key_of(static_cast<std::uint32_t>(Occurrence::delivery),
+                               static_cast<std::uint64_t>(stream.value) << 32 | listener.value);
   }
 
   /// The frame has reached a listener, whose key `listener` is. It stays alive until released.
@@ -247,7 +258,8 @@ class Traffic {
   void release(FrameIndex index) {
     Frame& frame = frames_[index];
     if (--frame.references != 0) {
-      TAKT_CHECK(frame.references <= most_references, "no copy of a frame ends twice");  // a count that was 0 has wrapped
+      TAKT_CHECK(frame.references <= most_references,
+                 "no copy of a frame ends twice");  // a count that was 0 has wrapped
       return;
     }
     if (!frame.payload.is_none()) release(frame.payload);
@@ -279,13 +291,13 @@ class Traffic {
 
   std::size_t live_frames() const { return frames_.live(); }
 
-  /// Whoever records the run is told that the frame waits for the processor of its host.
-  static void tell_processing(sim::Simulation& simulation, sim::ComponentId where, FrameIndex frame) {
+  /// Traces that the frame waits for the processor of its host.
+  static void trace_processing(sim::Simulation& simulation, sim::ComponentId where, FrameIndex frame) {
     if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
       trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::processing), where, frame.value, 0});
   }
-  /// From now on whoever records that run is told of each copy that gets a record of its own.
-  void tell_separations(const sim::Simulation& simulation) { told_ = &simulation; }
+  /// From now on each copy that gets its own record is traced in that run.
+  void trace_copies(const sim::Simulation& simulation) { traced_run_ = &simulation; }
 
  private:
   static constexpr std::uint32_t most_references = 0x7FFF'FFFF;
@@ -304,14 +316,16 @@ class Traffic {
     TAKT_CHECK(payload.references <= most_references, "a payload is given up once by each frame that carries it");
   }
   /// What a record of the end of a frame says of it.
-  static constexpr std::uint64_t record_of(const Frame& frame) { return sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.produced.ps())); }
+  static constexpr std::uint64_t record_of(const Frame& frame) {
+    return sim::joined(frame.sequence, static_cast<std::uint64_t>(frame.produced.ps()));
+  }
 
   std::vector<Stream> streams_;
   FramePool frames_;
   PayloadPool payloads_;
   DeliveryBook book_;
   std::vector<const Traffic*> adopted_;
-  const sim::Simulation* told_ = nullptr;   // null: nobody asks which record was made of which
+  const sim::Simulation* traced_run_ = nullptr;  // null: nobody asks which record was made of which
 };
 
 }  // namespace takt::models

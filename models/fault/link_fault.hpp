@@ -18,8 +18,8 @@ struct Impairment {
   std::optional<LossModel> loss;
   std::optional<Corruption> corruption;
   std::optional<Duplication> duplication;
-  sim::TrueTime from;                               ///< for frames that arrive at or after it
-  sim::TrueTime until = sim::TrueTime::never();     ///< and before it
+  sim::TrueTime from;                            ///< for frames that arrive at or after it
+  sim::TrueTime until = sim::TrueTime::never();  ///< and before it
 };
 
 class LinkFault {
@@ -35,14 +35,16 @@ class LinkFault {
     if (up_ && !up) downs_.push_back(now);
     up_ = up;
   }
-  /// Whether the link went down while a frame was on it whose first bit left at `start` and whose last bit came at `end`.
+  /// Whether the link went down while a frame was on it whose first bit left at `start` and whose last bit came at
+  /// `end`.
   bool went_down_within(sim::TrueTime start, sim::TrueTime end) const {
     for (std::size_t i = downs_.size(); i-- > 0 && downs_[i] > start;)
       if (downs_[i] <= end) return true;
     return false;
   }
 
-  /// What chance does to a frame that arrives. Every impairment draws for every frame, so that one does not move another's luck.
+  /// What chance does to a frame that arrives. Every impairment draws for every frame, so that one does not move
+  /// another's luck.
   struct Fate {
     bool lost = false;
     bool damaged = false;
@@ -67,13 +69,15 @@ class LinkFault {
     std::erase_if(passing_, [&](const Passing& passing) { return passing.last_bit < now; });
     passing_.push_back({index, frame.stream, frame.sequence, last_bit});
   }
-  /// Marks the frames as damaged whose last bit has not come and will not. Some may have ended already: their records bear
-  /// another name then.
+  /// Marks the frames as damaged whose last bit has not come and will not. Some may have ended already: their records
+  /// bear another name then.
   template <class FrameOf>
   void break_passing(sim::TrueTime now, const FrameOf& frame_of) {
     for (const Passing& passing : passing_) {
       Frame* const frame = frame_of(passing.index);
-      if (frame != nullptr && passing.last_bit >= now && frame->references > 0 && frame->stream == passing.stream && frame->sequence == passing.sequence) frame->bad_fcs = true;
+      if (frame != nullptr && passing.last_bit >= now && frame->references > 0 && frame->stream == passing.stream &&
+          frame->sequence == passing.sequence)
+        frame->bad_fcs = true;
     }
     passing_.clear();
   }
@@ -87,7 +91,7 @@ class LinkFault {
   };
   sim::RandomStream chance_;
   std::vector<Impairment> impairments_;
-  std::vector<sim::TrueTime> downs_;   // ascending
+  std::vector<sim::TrueTime> downs_;  // ascending
   std::vector<Passing> passing_;
   bool up_ = true;
 };

@@ -3,11 +3,13 @@
 namespace takt::models {
 namespace {
 
-/// base^exponent, each product rounded to the nearest multiple of 2^-63; an error of at most one multiple for each bit of a frame.
+/// base^exponent, each product rounded to the nearest multiple of 2^-63; an error of at most one multiple for each bit
+/// of a frame.
 Probability power(Probability base, std::uint64_t exponent) {
   const auto times = [](Probability a, Probability b) {
     constexpr sim::uint128 half = sim::uint128{1} << 62;
-    return Probability::from_multiple(static_cast<std::uint64_t>((static_cast<sim::uint128>(a.multiple()) * b.multiple() + half) >> 63));
+    return Probability::from_multiple(
+        static_cast<std::uint64_t>((static_cast<sim::uint128>(a.multiple()) * b.multiple() + half) >> 63));
   };
   Probability result = Probability::from_multiple(Probability::one);
   for (; exponent > 0; exponent >>= 1) {

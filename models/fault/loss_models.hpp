@@ -1,6 +1,7 @@
 // What chance does to frames on a link: loss, bursts of loss, corruption, duplication. Integer comparisons only.
 //
-// Every question takes the same number of draws whatever the probabilities are, so two variants of a study share their luck.
+// Every question takes the same number of draws whatever the probabilities are, so two variants of a study share their
+// luck.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ class Probability {
   /// numerator / denominator, rounded to the nearest. Precondition: numerator <= denominator, denominator > 0.
   static constexpr Probability ratio(std::uint64_t numerator, std::uint64_t denominator) {
     TAKT_CHECK(denominator > 0 && numerator <= denominator, "a probability is at most 1");
-    return from_multiple(static_cast<std::uint64_t>(((static_cast<sim::uint128>(numerator) << 63) + denominator / 2) / denominator));
+    return from_multiple(
+        static_cast<std::uint64_t>(((static_cast<sim::uint128>(numerator) << 63) + denominator / 2) / denominator));
   }
   static constexpr Probability from_multiple(std::uint64_t of_2_to_minus_63) {
     Probability p;
@@ -47,8 +49,9 @@ struct IndependentLoss {
 };
 
 /// Gilbert-Elliott: losses in bursts. A channel that is good or bad; for each frame it first changes its state with the
-/// probability of that state, then the frame is lost with the probability of the new state. It begins good. Two draws a frame.
-/// In the long run it is bad for good_to_bad / (good_to_bad + bad_to_good) of the frames; a bad spell lasts 1 / bad_to_good.
+/// probability of that state, then the frame is lost with the probability of the new state. It begins good. Two draws a
+/// frame. In the long run it is bad for good_to_bad / (good_to_bad + bad_to_good) of the frames; a bad spell lasts 1 /
+/// bad_to_good.
 struct GilbertElliottLoss {
   Probability good_to_bad;
   Probability bad_to_good;
@@ -83,9 +86,9 @@ class Corruption {
   Probability probability(sim::Octets length);
 
  private:
-  Probability rate_;              // per frame, or per bit
+  Probability rate_;  // per frame, or per bit
   bool per_bit_ = false;
-  sim::Octets known_length_{0};   // frames come in few lengths: the last answer
+  sim::Octets known_length_{0};  // frames come in few lengths: the last answer
   Probability known_;
 };
 

@@ -5,11 +5,12 @@
 namespace takt::models {
 namespace {
 
-constexpr std::size_t few_streams = 4;   // to go through them is faster than to search
+constexpr std::size_t few_streams = 4;  // to go through them is faster than to search
 
 template <class Entries>
 auto place_of(Entries& entries, StreamIndex stream) {
-  return std::lower_bound(entries.begin(), entries.end(), stream, [](const auto& entry, StreamIndex s) { return entry.stream < s; });
+  return std::lower_bound(entries.begin(), entries.end(), stream,
+                          [](const auto& entry, StreamIndex s) { return entry.stream < s; });
 }
 
 /// The entry of the stream, or null.
@@ -55,11 +56,13 @@ StreamRecovery* ListenerRedundancy::find(StreamIndex stream) {
   return entry == nullptr ? nullptr : &entry->recovery;
 }
 
-std::optional<FrameIndex> ListenerRedundancy::receive(Traffic& traffic, FrameIndex index, std::uint16_t port, sim::LocalTime now) {
+std::optional<FrameIndex> ListenerRedundancy::receive(Traffic& traffic, FrameIndex index, std::uint16_t port,
+                                                      sim::LocalTime now) {
   const Frame& frame = traffic.frame(index);
   StreamRecovery* const recovery = find(frame.stream);
   if (recovery == nullptr) return index;
-  const std::size_t member = recovery->config().individual_recovery ? recovery->member_of(frame.destination, frame.vlan) : StreamRecovery::no_member;
+  const std::size_t member = recovery->config().individual_recovery ? recovery->member_of(frame.destination, frame.vlan)
+                                                                    : StreamRecovery::no_member;
   return recovery->receive(traffic, index, member, port, now);
 }
 

@@ -10,8 +10,8 @@ namespace takt::models {
 
 /// What management sets (frerSeqRcvyLatentError...). Not together with individual recovery.
 struct LatentErrorDetectionConfig {
-  std::uint32_t paths = 2;               ///< copies of each frame that should arrive; each passed one has paths - 1 discarded
-  std::uint64_t difference = 0;          ///< the greatest difference that is no error
+  std::uint32_t paths = 2;       ///< copies of each frame that should arrive; each passed one has paths - 1 discarded
+  std::uint64_t difference = 0;  ///< the greatest difference that is no error
   sim::Duration period = sim::Duration::from_ps(2'000'000'000'000);         ///< between tests; 2000 ms
   sim::Duration reset_period = sim::Duration::from_ps(30'000'000'000'000);  ///< between resets; 30 s
   bool operator==(const LatentErrorDetectionConfig&) const = default;
@@ -22,7 +22,8 @@ class LatentErrorDetection {
  public:
   explicit LatentErrorDetection(const LatentErrorDetectionConfig& config) : config_(config) {}
 
-  /// LatentErrorTest: true if a latent error is to be signalled. A period in which the recovery was reset tells nothing.
+  /// LatentErrorTest: true if a latent error is to be signalled. A period in which the recovery was reset is not
+  /// judged.
   bool test(const SequenceRecoveryCounters& counters) {
     const bool recovery_was_reset = counters.resets != recovery_resets_;
     recovery_resets_ = counters.resets;

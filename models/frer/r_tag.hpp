@@ -16,7 +16,7 @@ inline constexpr std::uint16_t r_tag_ether_type = 0xF1C1;
 
 /// EtherType, 16 reserved bits (0), sequence number; most significant octet first.
 constexpr std::array<std::byte, r_tag.count> encode_r_tag(SequenceNumber sequence) {
-  return {std::byte{r_tag_ether_type >> 8}, std::byte{r_tag_ether_type & 0xFF}, std::byte{0}, std::byte{0},
+  return {std::byte{r_tag_ether_type >> 8},      std::byte{r_tag_ether_type & 0xFF},     std::byte{0}, std::byte{0},
           static_cast<std::byte>(sequence >> 8), static_cast<std::byte>(sequence & 0xFF)};
 }
 
@@ -24,7 +24,8 @@ constexpr std::array<std::byte, r_tag.count> encode_r_tag(SequenceNumber sequenc
 constexpr std::optional<SequenceNumber> decode_r_tag(std::span<const std::byte> octets) {
   if (octets.size() < r_tag.count) return std::nullopt;
   const auto word = [&](std::size_t at) {
-    return static_cast<std::uint16_t>(std::to_integer<unsigned>(octets[at]) << 8 | std::to_integer<unsigned>(octets[at + 1]));
+    return static_cast<std::uint16_t>(std::to_integer<unsigned>(octets[at]) << 8 |
+                                      std::to_integer<unsigned>(octets[at + 1]));
   };
   if (word(0) != r_tag_ether_type) return std::nullopt;
   return word(4);

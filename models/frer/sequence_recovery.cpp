@@ -15,14 +15,14 @@ SequenceRecovery::Decision SequenceRecovery::recover(std::optional<SequenceNumbe
     ++counters_.discarded_packets;
     return {false, false};
   }
-  if (take_any_) return take_any(*sequence);
+  if (accept_any_) return accept_any(*sequence);
   return config_.algorithm == RecoveryAlgorithm::vector ? vector_recovery(*sequence) : match_recovery(*sequence);
 }
 
 void SequenceRecovery::reset() {
   recovery_number_ = 65535;
   history_ = {};
-  take_any_ = true;
+  accept_any_ = true;
   empty_shifts_ = config_.history_length - 1;
   ++counters_.resets;
 }
@@ -54,8 +54,8 @@ SequenceRecovery::Decision SequenceRecovery::match_recovery(SequenceNumber seque
   return pass();
 }
 
-SequenceRecovery::Decision SequenceRecovery::take_any(SequenceNumber sequence) {
-  take_any_ = false;
+SequenceRecovery::Decision SequenceRecovery::accept_any(SequenceNumber sequence) {
+  accept_any_ = false;
   recovery_number_ = sequence;
   set_seen(sequence, true);
   return pass();

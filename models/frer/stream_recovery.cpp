@@ -16,8 +16,8 @@ StreamRecovery::StreamRecovery(const StreamRecoveryConfig& config, sim::Componen
   next_latent_reset_ = sim::LocalTime() + latent_->config().reset_period;
 }
 
-std::optional<FrameIndex> StreamRecovery::receive(Traffic& traffic, FrameIndex index, std::size_t member, std::uint16_t port,
-                                                  sim::LocalTime now) {
+std::optional<FrameIndex> StreamRecovery::receive(Traffic& traffic, FrameIndex index, std::size_t member,
+                                                  std::uint16_t port, sim::LocalTime now) {
   catch_up(now);
   std::optional<SequenceNumber> sequence;
   if (const Frame& frame = traffic.frame(index); frame.r_tagged) sequence = frame.r_tag_sequence;
@@ -44,7 +44,8 @@ std::size_t StreamRecovery::member_of(AddressIndex destination, VlanId vlan) con
 }
 
 void StreamRecovery::catch_up(sim::LocalTime now) {
-  if (now < compound_.resets_at() && now < next_test_ && now < next_latent_reset_) [[likely]] return;
+  if (now < compound_.resets_at() && now < next_test_ && now < next_latent_reset_) [[likely]]
+    return;
   if (compound_.resets_at() <= now) {
     run_latent_error_detection(compound_.resets_at() - sim::Duration::from_ps(1));
     compound_.expire(now);

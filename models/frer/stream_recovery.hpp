@@ -1,9 +1,9 @@
 // Makes one stream of its members again: individual recovery of each, sequence recovery of all, latent error detection
 // (IEEE 802.1CB clauses 7.4.3, 7.4.4, 7.5).
 //
-// No timer runs. A reset that was due before a frame came has the same effect when it is made up for as the frame comes, and so
-// has a latent error test, since nothing counts in between. At one instant the order is: reset, latent error test, latent
-// error reset, frame.
+// No timer runs. A reset that was due before a frame came has the same effect when it is made up for as the frame
+// comes, and so has a latent error test, since nothing counts in between. At one instant the order is: reset, latent
+// error test, latent error reset, frame.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@ class TimedRecovery {
   }
   /// RECOVERY_TIMEOUT, if it has come until `now`.
   void expire(sim::LocalTime now) {
-    if (now < resets_at_) [[likely]] return;
+    if (now < resets_at_) [[likely]]
+      return;
     resets_at_ = sim::LocalTime::never();
     recovery_.reset();
   }
@@ -49,16 +50,17 @@ class StreamRecovery {
   /// `where`: the component that records name as the place.
   explicit StreamRecovery(const StreamRecoveryConfig& config, sim::ComponentId where = {});
 
-  /// What became of a frame: nothing if it is a copy too many (the caller drops it, as DropReason::duplicate), otherwise the
-  /// record with which the caller's copy goes on: addressed to the compound stream and, unless the tag is kept, without R-TAG.
-  /// `member` is the number of its member stream, or no_member. `now` is a time of the node that is never stepped
-  /// (LocalClock::unstepped_at); it does not decrease from call to call.
-  std::optional<FrameIndex> receive(Traffic& traffic, FrameIndex frame, std::size_t member, std::uint16_t port, sim::LocalTime now);
+  /// What became of a frame: nothing if it is a copy too many (the caller drops it, as DropReason::duplicate),
+  /// otherwise the record with which the caller's copy goes on: addressed to the compound stream and, unless the tag is
+  /// kept, without R-TAG. `member` is the number of its member stream, or no_member. `now` is a time of the node that
+  /// is never stepped (LocalClock::unstepped_at); it does not decrease from call to call.
+  std::optional<FrameIndex> receive(Traffic& traffic, FrameIndex frame, std::size_t member, std::uint16_t port,
+                                    sim::LocalTime now);
 
   /// The member to which a frame with that address belongs, or no_member.
   std::size_t member_of(AddressIndex destination, VlanId vlan) const;
 
-  /// Makes up for resets and latent error tests that are due until `now`; for who reads the counters.
+  /// Catches up on resets and latent error tests due until `now`. To be called before counters are read.
   void catch_up(sim::LocalTime now);
 
   struct Individual {

@@ -1,4 +1,5 @@
-// Whether the neighbour at a port says that it is capable of gPTP in a domain, IEEE 802.1AS-2020 10.4: GptpCapableTransmit and GptpCapableReceive.
+// Whether the neighbour at a port says that it is capable of gPTP in a domain, IEEE 802.1AS-2020 10.4:
+// GptpCapableTransmit and GptpCapableReceive.
 #pragma once
 
 #include <algorithm>
@@ -9,12 +10,13 @@
 
 namespace takt::models::gptp {
 
-/// Of one port and one domain. Sends Signaling with the gPTP-capable TLV at its interval and listens for the neighbour's: nine of the neighbour's
-/// intervals without one (gPtpCapableReceiptTimeout), and it is capable no longer. Without an interval nothing is sent, and neighbours are taken at their word.
+/// Of one port and one domain. Sends Signaling with the gPTP-capable TLV at its interval and listens for the
+/// neighbour's: nine of the neighbour's intervals without one (gPtpCapableReceiptTimeout), and it is capable no longer.
+/// Without an interval nothing is sent, and neighbours are taken at their word.
 class Capability {
  public:
   static constexpr int receipt_timeout = 9;
-  static constexpr int longest_interval = 24;   ///< 2^24 s; what a neighbour announces beyond is not believed
+  static constexpr int longest_interval = 24;  ///< 2^24 s; what a neighbour announces beyond is not believed
 
   Capability(std::optional<std::int8_t> log_interval, PortIdentity self, std::uint8_t domain, std::uint8_t instance)
       : log_interval_(log_interval), self_(self), domain_(domain), instance_(instance) {}
@@ -47,12 +49,14 @@ class Capability {
     const int interval = message.capable->log_interval;
     if (interval < -longest_interval || interval > longest_interval) return;
     hears_ = true;
-    outputs.push_back(ArmTimer{timer(TimerPurpose::gptp_capable_receipt), now + interval_of(interval) * receipt_timeout});
+    outputs.push_back(
+        ArmTimer{timer(TimerPurpose::gptp_capable_receipt), now + interval_of(interval) * receipt_timeout});
   }
 
   /// It comes from another node, and this port is meant.
   bool is_meant(const Signaling& message) const {
-    return message.header.source.clock != self_.clock && (message.target == PortIdentity::all() || message.target == self_);
+    return message.header.source.clock != self_.clock &&
+           (message.target == PortIdentity::all() || message.target == self_);
   }
   /// An empty Signaling of the port in the domain, for whatever has to be said.
   Signaling next_message() {

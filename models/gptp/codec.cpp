@@ -8,8 +8,8 @@ namespace takt::models::gptp {
 namespace {
 
 constexpr std::size_t header_length = 34;
-constexpr std::uint8_t two_step_flag = 0x02;          // first flag octet
-constexpr std::uint8_t ptp_time_scale_flag = 0x08;    // second flag octet
+constexpr std::uint8_t two_step_flag = 0x02;        // first flag octet
+constexpr std::uint8_t ptp_time_scale_flag = 0x08;  // second flag octet
 constexpr std::uint16_t tlv_organization_extension = 0x0003;
 constexpr std::uint16_t tlv_path_trace = 0x0008;
 constexpr std::uint16_t tlv_organization_extension_do_not_propagate = 0x8000;
@@ -85,7 +85,8 @@ std::size_t length_of(const PdelayResp&) { return 54; }
 std::size_t length_of(const PdelayRespFollowUp&) { return 54; }
 std::size_t length_of(const Announce& announce) { return 64 + 4 + 8 * announce.path_trace.size(); }
 std::size_t length_of(const Signaling& signaling) {
-  return 44 + (signaling.request ? std::size_t{4} + interval_request_length : 0) + (signaling.capable ? std::size_t{4} + gptp_capable_length : 0);
+  return 44 + (signaling.request ? std::size_t{4} + interval_request_length : 0) +
+         (signaling.capable ? std::size_t{4} + gptp_capable_length : 0);
 }
 
 // The first flag octet: twoStepFlag for a Sync without contents and for every Pdelay_Resp.
@@ -229,7 +230,8 @@ bool find_tlv(Reader& in, std::uint16_t wanted, Found&& found, More&& more) {
 
 bool get_information(Reader contents, FollowUpInformation& information) {
   if (contents.left() != follow_up_information_length) return false;
-  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != follow_up_information_subtype) return false;
+  if (get_24_bits(contents) != organization_802_1 || get_24_bits(contents) != follow_up_information_subtype)
+    return false;
   information.cumulative_scaled_rate_offset = contents.get<std::int32_t>();
   information.gm_time_base_indicator = contents.get<std::uint16_t>();
   for (std::uint8_t& octet : information.last_gm_phase_change) octet = contents.get<std::uint8_t>();
@@ -251,10 +253,13 @@ void get_drift(Reader contents, std::optional<DriftTracking>& drift) {
 
 /// What is behind the time of a Sync: the information that must be there, and what else is known.
 bool get_information(Reader& in, FollowUpInformation& information, std::optional<DriftTracking>& drift) {
-  return find_tlv(in, tlv_organization_extension, [&](Reader contents) {
-    get_drift(contents, drift);
-    return get_information(contents, information);
-  }, [&](Reader contents) { get_drift(contents, drift); });
+  return find_tlv(
+      in, tlv_organization_extension,
+      [&](Reader contents) {
+        get_drift(contents, drift);
+        return get_information(contents, information);
+      },
+      [&](Reader contents) { get_drift(contents, drift); });
 }
 
 bool get_body(Reader& in, const RawHeader& raw, Sync& sync) {
@@ -299,12 +304,15 @@ bool get_body(Reader& in, const RawHeader& raw, Announce& announce) {
   get(in, announce.grandmaster);
   announce.steps_removed = in.get<std::uint16_t>();
   announce.time.time_source = in.get<std::uint8_t>();
-  return find_tlv(in, tlv_path_trace, [&](Reader contents) {
-    if (contents.left() % 8 != 0 || contents.left() / 8 > Announce::longest_path_trace) return false;
-    announce.path_trace.resize(contents.left() / 8);
-    for (ClockIdentity& identity : announce.path_trace) get(contents, identity);
-    return true;
-  }, [](Reader) {});
+  return find_tlv(
+      in, tlv_path_trace,
+      [&](Reader contents) {
+        if (contents.left() % 8 != 0 || contents.left() / 8 > Announce::longest_path_trace) return false;
+        announce.path_trace.resize(contents.left() / 8);
+        for (ClockIdentity& identity : announce.path_trace) get(contents, identity);
+        return true;
+      },
+      [](Reader) {});
 }
 
 void get_capable(Reader contents, std::optional<GptpCapable>& capable) {
@@ -356,7 +364,8 @@ void encode(const Message& message, std::vector<std::byte>& octets) {
   octets.resize(encoded_length(message));
   Writer out(octets);
   const Header& header = header_of(message);
-  const MessageType type = std::visit([](const auto& each) { return type_of<std::decay_t<decltype(each)>>(); }, message);
+  const MessageType type =
+      std::visit([](const auto& each) { return type_of<std::decay_t<decltype(each)>>(); }, message);
   const Announce* const announce = std::get_if<Announce>(&message);
   out.put(static_cast<std::uint8_t>(static_cast<unsigned>(header.major_sdo_id) << 4 | static_cast<unsigned>(type)));
   out.put(static_cast<std::uint8_t>(header.minor_version << 4 | 2));
@@ -381,13 +390,20 @@ std::optional<Message> decode(std::span<const std::byte> octets) {
   if (!raw || raw->length > octets.size()) return std::nullopt;
   Reader in(whole.take(raw->length - header_length));
   switch (raw->type) {
-    case MessageType::sync: return decoded<Sync>(in, *raw);
-    case MessageType::follow_up: return decoded<FollowUp>(in, *raw);
-    case MessageType::pdelay_req: return decoded<PdelayReq>(in, *raw);
-    case MessageType::pdelay_resp: return decoded<PdelayResp>(in, *raw);
-    case MessageType::pdelay_resp_follow_up: return decoded<PdelayRespFollowUp>(in, *raw);
-    case MessageType::announce: return decoded<Announce>(in, *raw);
-    case MessageType::signaling: return decoded<Signaling>(in, *raw);
+    case MessageType::sync:
+      return decoded<Sync>(in, *raw);
+    case MessageType::follow_up:
+      return decoded<FollowUp>(in, *raw);
+    case MessageType::pdelay_req:
+      return decoded<PdelayReq>(in, *raw);
+    case MessageType::pdelay_resp:
+      return decoded<PdelayResp>(in, *raw);
+    case MessageType::pdelay_resp_follow_up:
+      return decoded<PdelayRespFollowUp>(in, *raw);
+    case MessageType::announce:
+      return decoded<Announce>(in, *raw);
+    case MessageType::signaling:
+      return decoded<Signaling>(in, *raw);
   }
   return std::nullopt;
 }

@@ -21,9 +21,9 @@ std::size_t encoded_length(const Message& message);
 /// The message in octets. Precondition: a path trace no longer than longest_path_trace.
 void encode(const Message& message, std::vector<std::byte>& octets);
 
-/// The message that `octets` begin with; what follows messageLength is padding. Nothing if it is no well-formed message of a
-/// type that is known here: too short, another version or sdoId, nanoseconds of 10^9 and more, a TLV that passes the end or a
-/// mandatory one missing. Unknown TLVs after the known contents are skipped. Safe on any octets.
+/// The message that `octets` begin with; what follows messageLength is padding. Nothing if it is no well-formed message
+/// of a type that is known here: too short, another version or sdoId, nanoseconds of 10^9 and more, a TLV that passes
+/// the end or a mandatory one missing. Unknown TLVs after the known contents are skipped. Safe on any octets.
 std::optional<Message> decode(std::span<const std::byte> octets);
 
 }  // namespace takt::models::gptp

@@ -13,8 +13,8 @@ struct DriftingRate {
 
   ClockRate after(sim::Duration d) const {
     if (drift == RateOffset()) return rate;
-    return ClockRate::one_plus(rate.minus_one() + RateOffset::from_multiple(static_cast<std::int64_t>(
-                                                      divide_rounded(sim::int128{drift.multiple()} * d.ps(), 1'000'000'000'000))));
+    return ClockRate::one_plus(rate.minus_one() + RateOffset::from_multiple(static_cast<std::int64_t>(divide_rounded(
+                                                      sim::int128{drift.multiple()} * d.ps(), 1'000'000'000'000))));
   }
   /// What passes on the one clock while `d` passes on the other: the mean rate is that in the middle.
   sim::Duration times(sim::Duration d) const { return after(d / 2).times(d); }

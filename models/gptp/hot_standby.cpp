@@ -35,7 +35,9 @@ sim::Duration DomainClock::take(const SyncSample& sample) {
 }
 
 HotStandby::HotStandby(const HotStandbyConfig& config, const ClockTargetConfig& target)
-    : config_(config), sides_{Side{IsSynced(config.is_synced), DomainClock(target)}, Side{IsSynced(config.is_synced), DomainClock(target)}} {}
+    : config_(config),
+      sides_{Side{IsSynced(config.is_synced), DomainClock(target)},
+             Side{IsSynced(config.is_synced), DomainClock(target)}} {}
 
 void HotStandby::sample(HotStandbyRole of, const SyncSample& sample, sim::LocalTime shown, sim::LocalTime now) {
   side(of).is_synced.sample(side(of).clock.take(sample));
@@ -43,7 +45,8 @@ void HotStandby::sample(HotStandbyRole of, const SyncSample& sample, sim::LocalT
   evaluate(now);
 }
 
-/// A domain whose grandmaster the node is has the time of its disciplined clock, which `shown` is at the local instant `at`.
+/// A domain whose grandmaster the node is has the time of its disciplined clock, which `shown` is at the local instant
+/// `at`.
 void HotStandby::compare(sim::LocalTime at, sim::LocalTime shown) {
   const auto time_of = [&](const Side& each) { return each.is_grandmaster ? shown : each.clock.shown_at(at); };
   difference_ = magnitude(time_of(sides_[0]) - time_of(sides_[1]));
@@ -63,10 +66,14 @@ void HotStandby::set_grandmaster(HotStandbyRole of, bool is_grandmaster, sim::Lo
 /// From init there is no way without both: it waits for them. Two that disagree are no standby for each other.
 bool HotStandby::may_go_up() const {
   switch (state_) {
-    case HotStandbyState::init: return are_both_synced();
-    case HotStandbyState::not_redundant: return may_be_redundant();
-    case HotStandbyState::out_of_sync: return is_either_synced();
-    case HotStandbyState::redundant: break;
+    case HotStandbyState::init:
+      return are_both_synced();
+    case HotStandbyState::not_redundant:
+      return may_be_redundant();
+    case HotStandbyState::out_of_sync:
+      return is_either_synced();
+    case HotStandbyState::redundant:
+      break;
   }
   return false;
 }
@@ -77,8 +84,10 @@ void HotStandby::evaluate(sim::LocalTime now) {
     enter(is_either_synced() ? HotStandbyState::not_redundant : HotStandbyState::out_of_sync);
   if (state_ == HotStandbyState::not_redundant && !is_either_synced()) enter(HotStandbyState::out_of_sync);
   const bool has_primary = is_synced(HotStandbyRole::primary);
-  if (state_ == HotStandbyState::init)  // the grandmaster of the secondary has its own time until it has that of the primary
-    active_ = side(HotStandbyRole::secondary).is_grandmaster && !has_primary ? HotStandbyRole::secondary : HotStandbyRole::primary;
+  if (state_ ==
+      HotStandbyState::init)  // the grandmaster of the secondary has its own time until it has that of the primary
+    active_ = side(HotStandbyRole::secondary).is_grandmaster && !has_primary ? HotStandbyRole::secondary
+                                                                             : HotStandbyRole::primary;
   else if (is_either_synced())
     active_ = has_primary ? HotStandbyRole::primary : HotStandbyRole::secondary;
 

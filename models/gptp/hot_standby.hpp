@@ -17,8 +17,8 @@ struct IsSyncedConfig {
   int rx_sync_count = 4;                                         // rxSyncCountThresh
 };
 
-/// Whether one instance is synced: met_count offsets in a row within the limit, after rx_sync_count Syncs; until exceeded_count in a
-/// row are beyond it, or Sync is lost.
+/// Whether one instance is synced: met_count offsets in a row within the limit, after rx_sync_count Syncs; until
+/// exceeded_count in a row are beyond it, or Sync is lost.
 class IsSynced {
  public:
   explicit IsSynced(const IsSyncedConfig& config) : config_(config) {}
@@ -37,8 +37,9 @@ class IsSynced {
   bool is_grandmaster_ = false;
 };
 
-/// The time of one domain as its time receiver keeps it: a clock on the node's free-running one that the Syncs of this domain alone discipline.
-/// Whether a domain is synced is judged by it, not by the clock of the node, which follows one of the domains only.
+/// The time of one domain as its time receiver keeps it: a clock on the node's free-running one that the Syncs of this
+/// domain alone discipline. Whether a domain is synced is judged by it, not by the clock of the node, which follows one
+/// of the domains only.
 class DomainClock {
  public:
   explicit DomainClock(const ClockTargetConfig& config) : target_(config) {}
@@ -50,7 +51,7 @@ class DomainClock {
   ClockTarget target_;
   sim::LocalTime since_;  // of the free-running clock, at which it showed shown_
   sim::LocalTime shown_;
-  ClockRate rate_;        // against the free-running clock
+  ClockRate rate_;  // against the free-running clock
 };
 
 enum class HotStandbyState : std::uint8_t { init, redundant, not_redundant, out_of_sync };
@@ -63,7 +64,8 @@ struct HotStandbyConfig {
   sim::Duration waiting_time = {};  // 2^hotStandbySystemLogSyncTimeThresh s; 0: none
 };
 
-/// Fed with what both instances hear; says from which of them time comes: from the primary while it is synced, otherwise from the secondary.
+/// Fed with what both instances hear; says from which of them time comes: from the primary while it is synced,
+/// otherwise from the secondary.
 class HotStandby {
  public:
   /// `target`: the servo of the node, with which each domain's own clock is kept as well.
@@ -78,8 +80,8 @@ class HotStandby {
   void evaluate(sim::LocalTime now);
 
   HotStandbyState state() const { return state_; }
-  /// The instance whose samples discipline the clock: the primary unless only the secondary is synced. In init it is the primary, in
-  /// out_of_sync the one before; then nobody is synced, and the clock holds over.
+  /// The instance whose samples discipline the clock: the primary unless only the secondary is synced. In init it is
+  /// the primary, in out_of_sync the one before; then nobody is synced, and the clock holds over.
   HotStandbyRole active() const { return active_; }
   bool is_synced(HotStandbyRole of) const { return side(of).is_synced.is_synced(); }
 

@@ -10,9 +10,12 @@ constexpr sim::Duration longest_exchange = sim::Duration::from_ps(10'000'000'000
 
 bool plausible(sim::Duration d) { return d >= sim::Duration() && d <= longest_exchange; }
 
-/// Timestamps of Pdelay messages are times of the sender's own clock, whole nanoseconds with the rest in the correction.
+/// Timestamps of Pdelay messages are times of the sender's own clock, whole nanoseconds with the rest in the
+/// correction.
 Timestamp whole(sim::LocalTime time) { return Timestamp::floor_of(sim::PtpTime::from_ps(time.ps())); }
-Correction rest(sim::LocalTime time) { return Correction::of(sim::Duration::from_ps(time.ps()) - whole(time).time().since_start()); }
+Correction rest(sim::LocalTime time) {
+  return Correction::of(sim::Duration::from_ps(time.ps()) - whole(time).time().since_start());
+}
 
 std::optional<sim::PtpTime> joined(const Timestamp& time, Correction correction) {
   if (!time.in_range() || !correction.in_range()) return std::nullopt;
@@ -22,7 +25,10 @@ std::optional<sim::PtpTime> joined(const Timestamp& time, Correction correction)
 }  // namespace
 
 LinkDelay::LinkDelay(const LinkDelayConfig& config, PortIdentity self)
-    : config_(config), self_(self), interval_(config.log_pdelay_req_interval, 0), ratio_(config.neighbor_rate_ratio_window, config.compensate_drift) {
+    : config_(config),
+      self_(self),
+      interval_(config.log_pdelay_req_interval, 0),
+      ratio_(config.neighbor_rate_ratio_window, config.compensate_drift) {
   TAKT_CHECK(config.average_over >= 1, "an average over something");
 }
 
@@ -105,7 +111,7 @@ void LinkDelay::transmitted(const EgressReport& report, Outputs& outputs) {
 void LinkDelay::received(const PdelayResp& response, sim::LocalTime ingress, Outputs& outputs) {
   if (!up_ || response.requesting_port != self_ || response.header.sequence_id != request_.sequence_id) return;
   if (response.header.source.clock == self_.clock) return set_obstacle(NotCapable::own_answer, outputs);
-  if (request_.ingress) return fault(outputs);                                             // a second answer
+  if (request_.ingress) return fault(outputs);  // a second answer
   const std::optional<sim::PtpTime> receipt = joined(response.request_receipt, response.header.correction);
   if (!request_.pending || !receipt) return;
   request_.ingress = ingress;
@@ -142,7 +148,8 @@ void LinkDelay::measured(sim::Duration delay, Outputs& outputs) {
   else
     mean_link_delay_ += (delay - mean_link_delay_) / static_cast<std::int64_t>(measurements_);
   if (faults_ > config_.allowed_faults) return set_obstacle(NotCapable::several_answers, outputs);
-  if (config_.mean_link_delay_thresh && mean_link_delay_ > *config_.mean_link_delay_thresh) return set_obstacle(NotCapable::delay_too_long, outputs);
+  if (config_.mean_link_delay_thresh && mean_link_delay_ > *config_.mean_link_delay_thresh)
+    return set_obstacle(NotCapable::delay_too_long, outputs);
   set_obstacle(mean_link_delay_ < config_.lowest_link_delay ? NotCapable::delay_too_short : NotCapable::none, outputs);
 }
 

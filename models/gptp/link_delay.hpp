@@ -12,27 +12,27 @@ namespace takt::models::gptp {
 
 /// Why a port is not asCapable (11.2.2). The last one is of a domain, see Capability; all others are of the link.
 enum class NotCapable : std::uint8_t {
-  none,                ///< it is
+  none,  ///< it is
   link_down,
-  unmeasured,          ///< too few exchanges so far
-  no_answer,           ///< the neighbour leaves more requests unanswered than are allowed
-  delay_too_long,      ///< beyond meanLinkDelayThresh
+  unmeasured,      ///< too few exchanges so far
+  no_answer,       ///< the neighbour leaves more requests unanswered than are allowed
+  delay_too_long,  ///< beyond meanLinkDelayThresh
   delay_too_short,
-  several_answers,     ///< to one request: something between that does not speak gPTP
-  own_answer,          ///< the port hears itself
-  neighbor_not_capable ///< no gPTP-capable TLV from the neighbour
+  several_answers,      ///< to one request: something between that does not speak gPTP
+  own_answer,           ///< the port hears itself
+  neighbor_not_capable  ///< no gPTP-capable TLV from the neighbour
 };
 
 struct LinkDelayConfig {
-  int log_pdelay_req_interval = 0;                                       // 1 s
-  std::size_t neighbor_rate_ratio_window = 8;                            // exchanges
-  bool compensate_drift = false;                                         // see NeighborRateRatio
-  std::size_t average_over = 1;                                          // meanLinkDelay is averaged over about that many exchanges
+  int log_pdelay_req_interval = 0;             // 1 s
+  std::size_t neighbor_rate_ratio_window = 8;  // exchanges
+  bool compensate_drift = false;               // see NeighborRateRatio
+  std::size_t average_over = 1;                // meanLinkDelay is averaged over about that many exchanges
   std::optional<sim::Duration> mean_link_delay_thresh = sim::Duration::from_ps(800'000);
   sim::Duration lowest_link_delay = sim::Duration::from_ps(-20'000'000'000);
   int allowed_lost_responses = 9;
   int allowed_faults = 9;
-  sim::Duration delay_asymmetry = {};                                    // positive: from the neighbour takes longer
+  sim::Duration delay_asymmetry = {};  // positive: from the neighbour takes longer
   MajorSdoId major_sdo_id = MajorSdoId::gptp;
 };
 
@@ -63,7 +63,9 @@ class LinkDelay {
   /// Beyond which it is too long; nothing: it never is.
   const std::optional<sim::Duration>& threshold() const { return config_.mean_link_delay_thresh; }
   /// one() while it is not known.
-  ClockRate neighbor_rate_ratio(sim::LocalTime at) const { return ratio_.is_valid() ? ratio_.ratio_at(at) : ClockRate::one(); }
+  ClockRate neighbor_rate_ratio(sim::LocalTime at) const {
+    return ratio_.is_valid() ? ratio_.ratio_at(at) : ClockRate::one();
+  }
   RateOffset neighbor_rate_ratio_drift() const { return ratio_.drift_per_second(); }
   int lost_responses() const { return lost_responses_; }
 
@@ -71,11 +73,11 @@ class LinkDelay {
   struct Request {
     std::uint16_t sequence_id = 0;
     bool pending = false;
-    bool faulty = false;                           // answered more than once
-    std::optional<sim::LocalTime> egress = {};     // t1
-    std::optional<sim::LocalTime> ingress = {};    // t4
-    sim::PtpTime receipt = {};                     // t2
-    std::optional<sim::PtpTime> response = {};     // t3
+    bool faulty = false;                         // answered more than once
+    std::optional<sim::LocalTime> egress = {};   // t1
+    std::optional<sim::LocalTime> ingress = {};  // t4
+    sim::PtpTime receipt = {};                   // t2
+    std::optional<sim::PtpTime> response = {};   // t3
     PortIdentity responder = {};
   };
   struct Answer {

@@ -40,19 +40,19 @@ struct Header {
 
 /// Follow_Up information TLV (11.4.4.3).
 struct FollowUpInformation {
-  std::int32_t cumulative_scaled_rate_offset = 0;         // (rate ratio - 1) * 2^41
+  std::int32_t cumulative_scaled_rate_offset = 0;  // (rate ratio - 1) * 2^41
   std::uint16_t gm_time_base_indicator = 0;
-  std::array<std::uint8_t, 12> last_gm_phase_change = {}; // ScaledNs: 2^-16 ns, 96 bits
-  std::int32_t scaled_last_gm_freq_change = 0;            // 2^-41
+  std::array<std::uint8_t, 12> last_gm_phase_change = {};  // ScaledNs: 2^-16 ns, 96 bits
+  std::int32_t scaled_last_gm_freq_change = 0;             // 2^-41
   bool operator==(const FollowUpInformation&) const = default;
 };
 
 /// Drift_Tracking TLV (IEEE 802.1ASdm): how fast the sender's rate ratio to the grandmaster changes.
 struct DriftTracking {
-  Timestamp sync_egress = {};                             // by the sender's clock; what is below a nanosecond is left out
+  Timestamp sync_egress = {};  // by the sender's clock; what is below a nanosecond is left out
   ClockIdentity grandmaster = {};
   std::uint16_t steps_removed = 0;
-  std::int32_t rate_ratio_drift = 0;                      // per second, 2^-41
+  std::int32_t rate_ratio_drift = 0;  // per second, 2^-41
   bool operator==(const DriftTracking&) const = default;
 };
 
@@ -106,8 +106,9 @@ struct ClockQuality {
 /// What an Announce says of its grandmaster's time besides (IEEE 1588 timePropertiesDS): passed on as received.
 struct TimeProperties {
   std::int16_t current_utc_offset = 37;
-  std::uint8_t time_source = 0xA0;                        // internal oscillator
-  std::uint8_t flags = 0x08;                              // second flag octet: leap61 0x01, leap59 0x02, UTC offset valid 0x04, time scale PTP 0x08, time traceable 0x10, frequency traceable 0x20
+  std::uint8_t time_source = 0xA0;  // internal oscillator
+  std::uint8_t flags = 0x08;  // second flag octet: leap61 0x01, leap59 0x02, UTC offset valid 0x04, time scale PTP
+                              // 0x08, time traceable 0x10, frequency traceable 0x20
   bool operator==(const TimeProperties&) const = default;
 };
 
@@ -121,23 +122,24 @@ struct Announce {
   std::uint8_t grandmaster_priority2 = 248;
   ClockIdentity grandmaster = {};
   std::uint16_t steps_removed = 0;
-  std::vector<ClockIdentity> path_trace = {};             // grandmaster first
+  std::vector<ClockIdentity> path_trace = {};  // grandmaster first
   bool operator==(const Announce&) const = default;
 };
 
 /// gPTP-capable TLV (10.6.4.4).
 struct GptpCapable {
-  std::int8_t log_interval = 0;                           // of the messages that carry it
+  std::int8_t log_interval = 0;  // of the messages that carry it
   std::uint8_t flags = 0;
   bool operator==(const GptpCapable&) const = default;
 };
 
-/// Message-interval request TLV (10.6.4.3): what the neighbour is asked to send, as logarithms; see MessageInterval for values that are no intervals.
+/// Message-interval request TLV (10.6.4.3): what the neighbour is asked to send, as logarithms; see MessageInterval for
+/// values that are no intervals.
 struct IntervalRequest {
   std::int8_t link_delay = -128;
   std::int8_t time_sync = -128;
   std::int8_t announce = -128;
-  std::uint8_t flags = 0x07;                              // computeNeighborRateRatio, computeMeanLinkDelay, oneStepReceiveCapable
+  std::uint8_t flags = 0x07;  // computeNeighborRateRatio, computeMeanLinkDelay, oneStepReceiveCapable
   bool operator==(const IntervalRequest&) const = default;
 };
 
@@ -159,7 +161,8 @@ inline Header& header_of(Message& message) {
 }
 /// Event messages are timestamped when they leave and when they arrive.
 inline bool is_event(const Message& message) {
-  return std::holds_alternative<Sync>(message) || std::holds_alternative<PdelayReq>(message) || std::holds_alternative<PdelayResp>(message);
+  return std::holds_alternative<Sync>(message) || std::holds_alternative<PdelayReq>(message) ||
+         std::holds_alternative<PdelayResp>(message);
 }
 
 }  // namespace takt::models::gptp

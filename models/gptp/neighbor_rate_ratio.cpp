@@ -6,7 +6,8 @@
 
 namespace takt::models::gptp {
 
-NeighborRateRatio::NeighborRateRatio(std::size_t window, bool compensate_drift) : window_(window), compensate_drift_(compensate_drift) {
+NeighborRateRatio::NeighborRateRatio(std::size_t window, bool compensate_drift)
+    : window_(window), compensate_drift_(compensate_drift) {
   TAKT_CHECK(window >= 1 && window <= 1000, "a window of a few exchanges");
   ring_.resize(2 * window + 1);
 }
@@ -35,17 +36,20 @@ ClockRate NeighborRateRatio::ratio_at(sim::LocalTime at) const {
   // A rise of 1 in 2^62 over at most years: the ratio of two durations is taken with 30 bits below the point.
   const sim::int128 ahead = (sim::int128{(at - middle).ps()} << 30) / std::max<std::int64_t>(middles_apart.ps(), 1);
   const sim::int128 change = (rise * std::clamp(ahead, sim::int128{0}, sim::int128{8} << 30)) >> 30;
-  return ClockRate::one_plus(recent.minus_one() + RateOffset::from_multiple(static_cast<std::int64_t>(
-                                                      std::clamp(change, -sim::int128{RateOffset::one} / 2, sim::int128{RateOffset::one} / 2))));
+  return ClockRate::one_plus(recent.minus_one() +
+                             RateOffset::from_multiple(static_cast<std::int64_t>(std::clamp(
+                                 change, -sim::int128{RateOffset::one} / 2, sim::int128{RateOffset::one} / 2))));
 }
 
 RateOffset NeighborRateRatio::drift_per_second() const {
   if (count_ < ring_.size()) return RateOffset();
-  const sim::int128 rise = sim::int128{between(back(0), back(window_)).minus_one().multiple()} - between(back(window_), back(2 * window_)).minus_one().multiple();
+  const sim::int128 rise = sim::int128{between(back(0), back(window_)).minus_one().multiple()} -
+                           between(back(window_), back(2 * window_)).minus_one().multiple();
   const sim::Duration middles_apart = (back(0).local - back(2 * window_).local) / 2;
   constexpr sim::int128 second = 1'000'000'000'000;
-  constexpr std::int64_t most = RateOffset::one / 1000;   // 1000 ppm/s, which no oscillator does
-  return RateOffset::from_multiple(static_cast<std::int64_t>(std::clamp(divide_rounded(rise * second, sim::int128{middles_apart.ps()}), -sim::int128{most}, sim::int128{most})));
+  constexpr std::int64_t most = RateOffset::one / 1000;  // 1000 ppm/s, which no oscillator does
+  return RateOffset::from_multiple(static_cast<std::int64_t>(std::clamp(
+      divide_rounded(rise * second, sim::int128{middles_apart.ps()}), -sim::int128{most}, sim::int128{most})));
 }
 
 }  // namespace takt::models::gptp

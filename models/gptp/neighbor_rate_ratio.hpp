@@ -12,15 +12,15 @@ namespace takt::models::gptp {
 
 /// r = (t3[k] - t3[k-N]) / (t4[k] - t4[k-N]) over a window of N exchanges; over fewer at the beginning.
 /// Timestamp noise e makes it wrong by 2e/(N interval); a frequency that drifts by d makes it late by d N interval / 2.
-/// With drift compensation it takes the window before into account as well and goes on along the line through the middles of
-/// both: no lag behind a steady drift, for about four times the noise.
+/// With drift compensation it takes the window before into account as well and goes on along the line through the
+/// middles of both: no lag behind a steady drift, for about four times the noise.
 class NeighborRateRatio {
  public:
   /// Precondition: 1 <= window <= 1000.
   explicit NeighborRateRatio(std::size_t window, bool compensate_drift = false);
 
-  /// An exchange: t3 as the neighbour wrote it (its own clock), t4 by one's own clock. Both must go forwards, and neither at more
-  /// than twice the rate of the other: otherwise what was known is forgotten first.
+  /// An exchange: t3 as the neighbour wrote it (its own clock), t4 by one's own clock. Both must go forwards, and
+  /// neither at more than twice the rate of the other: otherwise what was known is forgotten first.
   void add(sim::PtpTime neighbor, sim::LocalTime local);
   void reset() { count_ = 0; }
 

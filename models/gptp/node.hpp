@@ -13,13 +13,14 @@ namespace takt::models::gptp {
 
 struct NodeConfig {
   ClockIdentity identity = {};
-  std::vector<LinkDelayConfig> ports = {};          // port n is ports[n - 1]
-  std::vector<InstanceConfig> instances = {};       // distinct domains; the clock identity is filled in
-  std::optional<std::int8_t> log_gptp_capable_interval = {};   // of Signaling with the gPTP-capable TLV; none is sent or asked for if absent
+  std::vector<LinkDelayConfig> ports = {};     // port n is ports[n - 1]
+  std::vector<InstanceConfig> instances = {};  // distinct domains; the clock identity is filled in
+  std::optional<std::int8_t> log_gptp_capable_interval =
+      {};  // of Signaling with the gPTP-capable TLV; none is sent or asked for if absent
 };
 
-/// Sends every input to the machine that it belongs to. The host keeps the timers that are asked for, on the free-running
-/// clock, sends messages, and reports the egress of event messages. All calls append to `outputs`.
+/// Sends every input to the machine that it belongs to. The host keeps the timers that are asked for, on the
+/// free-running clock, sends messages, and reports the egress of event messages. All calls append to `outputs`.
 class Node {
  public:
   explicit Node(const NodeConfig& config);
@@ -30,7 +31,8 @@ class Node {
   /// `ingress`: the timestamp of an event message; of no meaning for others.
   void received(PortNumber port, const Message& message, sim::LocalTime ingress, sim::LocalTime now, Outputs& outputs);
   void transmitted(const EgressReport& report, sim::LocalTime now, Outputs& outputs);
-  /// Asks the neighbour at that port for other intervals: Signaling with the message-interval request TLV, once. Only if the link is up.
+  /// Asks the neighbour at that port for other intervals: Signaling with the message-interval request TLV, once. Only
+  /// if the link is up.
   void ask_for_intervals(std::size_t instance, PortNumber port, const IntervalRequest& request, Outputs& outputs);
   void timer_expired(const TimerId& timer, sim::LocalTime now, Outputs& outputs);
 
@@ -53,7 +55,7 @@ class Node {
 
   std::vector<LinkDelay> links_;
   std::vector<PtpInstance> instances_;
-  std::vector<Capability> capabilities_;   // by instance, then port
+  std::vector<Capability> capabilities_;  // by instance, then port
 };
 
 }  // namespace takt::models::gptp

@@ -1,4 +1,4 @@
-// What the machines ask of whoever hosts them.
+// What the state machines ask of their host.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,15 @@ namespace takt::models::gptp {
 /// Ports are numbered from 1, as in PortIdentity; 0 stands for the instance as a whole.
 using PortNumber = std::uint16_t;
 
-enum class TimerPurpose : std::uint8_t { pdelay_interval, sync_interval, sync_receipt, announce_interval, announce_receipt, gptp_capable_interval, gptp_capable_receipt };
+enum class TimerPurpose : std::uint8_t {
+  pdelay_interval,
+  sync_interval,
+  sync_receipt,
+  announce_interval,
+  announce_receipt,
+  gptp_capable_interval,
+  gptp_capable_receipt
+};
 
 /// A timer of a machine, at most one pending of each. Timers run on the free-running clock of the node.
 struct TimerId {
@@ -25,8 +33,8 @@ struct TimerId {
   auto operator<=>(const TimerId&) const = default;
 };
 
-/// How a one-step Sync changes while it leaves: its correction grows by what passes on the grandmaster's clock from `since` to the
-/// egress, and its rate ratio is the one at the egress.
+/// How a one-step Sync changes while it leaves: its correction grows by what passes on the grandmaster's clock from
+/// `since` to the egress, and its rate ratio is the one at the egress.
 struct OneStepPatch {
   sim::LocalTime since;
   DriftingRate rate_ratio;
@@ -52,8 +60,8 @@ struct CancelTimer {
   TimerId timer;
 };
 
-/// A Sync has been taken in at the port that is time receiver: at the local instant `at` the grandmaster showed `grandmaster_time`,
-/// and it runs at rate_ratio against the free-running clock.
+/// A Sync has been taken in at the port that is time receiver: at the local instant `at` the grandmaster showed
+/// `grandmaster_time`, and it runs at rate_ratio against the free-running clock.
 struct SyncSample {
   std::uint8_t instance = 0;
   sim::LocalTime at;
@@ -84,7 +92,8 @@ struct AsCapableChange {
   bool as_capable = false;
 };
 
-using Output = std::variant<SendMessage, ArmTimer, CancelTimer, SyncSample, RoleChange, GrandmasterChange, SyncLost, AsCapableChange>;
+using Output = std::variant<SendMessage, ArmTimer, CancelTimer, SyncSample, RoleChange, GrandmasterChange, SyncLost,
+                            AsCapableChange>;
 /// The caller gives an empty one and may use it again: it keeps its memory.
 using Outputs = std::vector<Output>;
 

@@ -7,7 +7,7 @@ PortRole role_of(const PortInformation& port, PortNumber number, const Selection
   if (port.info_is == InfoIs::disabled) return PortRole::disabled;
   if (port.info_is != InfoIs::received) return PortRole::time_transmitter;
   if (number == selection.receiver) return PortRole::time_receiver;
-  return selection.told_at(number, self) < port.priority ? PortRole::time_transmitter : PortRole::passive;
+  return selection.announced_at(number, self) < port.priority ? PortRole::time_transmitter : PortRole::passive;
 }
 
 }  // namespace
@@ -24,7 +24,8 @@ void select_roles(const SystemIdentity& self, const std::vector<PortInformation>
     }
   }
   selection.roles.resize(ports.size());
-  for (std::size_t i = 0; i < ports.size(); ++i) selection.roles[i] = role_of(ports[i], static_cast<PortNumber>(i + 1), selection, self.clock);
+  for (std::size_t i = 0; i < ports.size(); ++i)
+    selection.roles[i] = role_of(ports[i], static_cast<PortNumber>(i + 1), selection, self.clock);
 }
 
 }  // namespace takt::models::gptp

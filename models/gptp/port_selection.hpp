@@ -18,15 +18,18 @@ struct PortInformation {
 };
 
 struct Selection {
-  PriorityVector grandmaster = {};        // gmPriority: steps_removed counts from this instance
-  PortNumber receiver = 0;                // the port that is time receiver; 0: this instance is the grandmaster
-  std::vector<PortRole> roles = {};       // [port - 1]
+  PriorityVector grandmaster = {};   // gmPriority: steps_removed counts from this instance
+  PortNumber receiver = 0;           // the port that is time receiver; 0: this instance is the grandmaster
+  std::vector<PortRole> roles = {};  // [port - 1]
 
-  /// What this instance tells at a port (masterPriority).
-  PriorityVector told_at(PortNumber port, ClockIdentity self) const { return {grandmaster.root, grandmaster.steps_removed, {self, port}, port}; }
+  /// What this instance announces at a port (masterPriority).
+  PriorityVector announced_at(PortNumber port, ClockIdentity self) const {
+    return {grandmaster.root, grandmaster.steps_removed, {self, port}, port};
+  }
 };
 
-/// The roles of the ports of the instance `self`; ports[n - 1] is port n. `selection` is overwritten and keeps its memory.
+/// The roles of the ports of the instance `self`; ports[n - 1] is port n. `selection` is overwritten and keeps its
+/// memory.
 void select_roles(const SystemIdentity& self, const std::vector<PortInformation>& ports, Selection& selection);
 
 }  // namespace takt::models::gptp

@@ -21,14 +21,17 @@ struct SystemIdentity {
 struct PriorityVector {
   SystemIdentity root = {};
   std::uint16_t steps_removed = 0;
-  PortIdentity source = {};      // of the port that sends
-  std::uint16_t port = 0;        // of the port that receives
+  PortIdentity source = {};  // of the port that sends
+  std::uint16_t port = 0;    // of the port that receives
   auto operator<=>(const PriorityVector&) const = default;
 
   /// What an Announce that arrives at `port` says.
   static PriorityVector of(const Announce& announce, std::uint16_t port) {
-    return {{announce.grandmaster_priority1, announce.grandmaster_quality, announce.grandmaster_priority2, announce.grandmaster},
-            announce.steps_removed, announce.header.source, port};
+    return {{announce.grandmaster_priority1, announce.grandmaster_quality, announce.grandmaster_priority2,
+             announce.grandmaster},
+            announce.steps_removed,
+            announce.header.source,
+            port};
   }
   /// The path to the grandmaster that leads through that port.
   PriorityVector one_step_further() const {

@@ -11,38 +11,45 @@ bool PtpInstance::is_from_transmitter(const Header& header, PortNumber port) con
   return external() || header.source == information_[port - 1u].priority.source;
 }
 
-void PtpInstance::received(const Sync& sync, PortNumber port, sim::LocalTime ingress, const LinkMeasure& link, sim::LocalTime now, Outputs& outputs) {
+void PtpInstance::received(const Sync& sync, PortNumber port, sim::LocalTime ingress, const LinkMeasure& link,
+                           sim::LocalTime now, Outputs& outputs) {
   if (!is_from_transmitter(sync.header, port)) return;
   const SyncWaiting waiting{sync.header, ingress, link};
   at(port).waiting.reset();
   if (sync.one_step)
-    sync_complete(waiting, sync.one_step->origin, sync.header.correction, sync.one_step->information, sync.one_step->drift, port, now, outputs);
+    sync_complete(waiting, sync.one_step->origin, sync.header.correction, sync.one_step->information,
+                  sync.one_step->drift, port, now, outputs);
   else
     at(port).waiting = waiting;
 }
 
 void PtpInstance::received(const FollowUp& follow_up, PortNumber port, sim::LocalTime now, Outputs& outputs) {
   std::optional<SyncWaiting>& waiting = at(port).waiting;
-  if (!waiting || waiting->header.source != follow_up.header.source || waiting->header.sequence_id != follow_up.header.sequence_id) return;
+  if (!waiting || waiting->header.source != follow_up.header.source ||
+      waiting->header.sequence_id != follow_up.header.sequence_id)
+    return;
   const SyncWaiting complete = *waiting;
   waiting.reset();
   if (!complete.header.correction.in_range() || !follow_up.header.correction.in_range()) return;
-  sync_complete(complete, follow_up.precise_origin, complete.header.correction + follow_up.header.correction, follow_up.information, follow_up.drift, port, now, outputs);
+  sync_complete(complete, follow_up.precise_origin, complete.header.correction + follow_up.header.correction,
+                follow_up.information, follow_up.drift, port, now, outputs);
 }
 
 void PtpInstance::sync_complete(const SyncWaiting& waiting, const Timestamp& origin, Correction correction,
-                                const FollowUpInformation& information, const std::optional<DriftTracking>& drift, PortNumber port, sim::LocalTime now, Outputs& outputs) {
+                                const FollowUpInformation& information, const std::optional<DriftTracking>& drift,
+                                PortNumber port, sim::LocalTime now, Outputs& outputs) {
   if (!origin.in_range() || !correction.in_range()) return;
   sync_ = SyncInformation::received(origin, correction, information, waiting.ingress, waiting.link);
   sync_->log_interval = waiting.header.log_message_interval;
   drift_.add(sync_->since, sync_->rate_ratio);
   sync_->drift = drift_.per_second();
-  // What the sender says of its own ratio, and what the link shows of the sender's clock (IEEE 802.1ASdm). Not of another grandmaster.
+  // What the sender says of its own ratio, and what the link shows of the sender's clock (IEEE 802.1ASdm). Not of
+  // another grandmaster.
   if (config_.drift_tracking && drift && drift->grandmaster == selection_.grandmaster.root.clock)
     sync_->drift = RateOffset::from_scaled_41(drift->rate_ratio_drift) + waiting.link.neighbor_rate_ratio_drift;
   arm_sync_receipt(port, sync_->log_interval, now, outputs);
-  outputs.push_back(SyncSample{index_, waiting.ingress, sync_->grandmaster_time_at(waiting.ingress), sync_->rate_ratio, sync_->log_interval,
-                               selection_.grandmaster.root.clock});
+  outputs.push_back(SyncSample{index_, waiting.ingress, sync_->grandmaster_time_at(waiting.ingress), sync_->rate_ratio,
+                               sync_->log_interval, selection_.grandmaster.root.clock});
   for (PortNumber each = 1; each <= ports(); ++each) {
     if (at(each).role != PortRole::time_transmitter) continue;
     if (goes_along(each))
@@ -53,12 +60,13 @@ void PtpInstance::sync_complete(const SyncWaiting& waiting, const Timestamp& ori
 }
 
 void PtpInstance::arm_sync_receipt(PortNumber port, int log_interval, sim::LocalTime now, Outputs& outputs) {
-  outputs.push_back(ArmTimer{timer(port, TimerPurpose::sync_receipt), now + config_.sync_receipt_timeout * interval_of(log_interval)});
+  outputs.push_back(ArmTimer{timer(port, TimerPurpose::sync_receipt),
+                             now + config_.sync_receipt_timeout * interval_of(log_interval)});
 }
 
 void PtpInstance::sync_receipt_expired(PortNumber port, sim::LocalTime now, Outputs& outputs) {
   if (at(port).role != PortRole::time_receiver) return;
-  if (!external()) return age(port, now, outputs);  // the port becomes something else: SyncLost, perhaps holdover as grandmaster
+  if (!external()) return age(port, now, outputs);  // the port changes its role: SyncLost, or holdover as grandmaster
   if (sync_) outputs.push_back(SyncLost{index_});
   sync_.reset();
 }
@@ -81,8 +89,9 @@ void PtpInstance::sync_interval_elapsed(PortNumber port, sim::LocalTime now, Out
   }
 }
 
-/// A port that sends when the grandmaster's timer elapses or a Sync is relayed. Others have an interval of their own: of boundary clocks, of relays that
-/// are not sync-locked, and where the neighbour has asked for another one (syncLocked, 10.3.18).
+/// A port that sends when the grandmaster's timer elapses or a Sync is relayed. Others have an interval of their own:
+/// of boundary clocks, of relays that are not sync-locked, and where the neighbour has asked for another one
+/// (syncLocked, 10.3.18).
 bool PtpInstance::goes_along(PortNumber number) const {
   const MessageInterval& interval = at(number).sync_interval;
   if (interval.is_stopped() || interval.lingers()) return false;
@@ -93,7 +102,9 @@ bool PtpInstance::goes_along(PortNumber number) const {
 
 void PtpInstance::own_sync_interval_elapsed(PortNumber number, sim::LocalTime now, Outputs& outputs) {
   Port& port = at(number);
-  port.has_own_interval = port.role == PortRole::time_transmitter && !goes_along(number) && !port.sync_interval.is_stopped() && (is_grandmaster() ? grandmaster_present() : sync_.has_value());
+  port.has_own_interval = port.role == PortRole::time_transmitter && !goes_along(number) &&
+                          !port.sync_interval.is_stopped() &&
+                          (is_grandmaster() ? grandmaster_present() : sync_.has_value());
   if (!port.has_own_interval) return;
   SyncInformation sync = gives_own_time() ? source_.information_at(now) : *sync_;
   sync.log_interval = port.sync_interval.announced();
@@ -106,7 +117,8 @@ void PtpInstance::own_sync_interval_elapsed(PortNumber number, sim::LocalTime no
 void PtpInstance::follow_sync_interval(PortNumber number, sim::LocalTime now, Outputs& outputs) {
   Port& port = at(number);
   if (port.role != PortRole::time_transmitter) return;
-  const bool is_timed = !port.sync_interval.is_stopped() && !goes_along(number) && (is_grandmaster() || sync_.has_value());
+  const bool is_timed =
+      !port.sync_interval.is_stopped() && !goes_along(number) && (is_grandmaster() || sync_.has_value());
   if (is_timed) {
     const sim::LocalTime soonest = now + port.sync_interval.length();
     port.next_own_sync = port.has_own_interval ? std::min(port.next_own_sync, soonest) : soonest;
@@ -120,7 +132,8 @@ void PtpInstance::follow_sync_interval(PortNumber number, sim::LocalTime now, Ou
 std::optional<DriftTracking> PtpInstance::drift_of(const SyncInformation& sync, sim::LocalTime egress) const {
   if (!config_.drift_tracking) return std::nullopt;
   const PriorityVector& best = selection_.grandmaster;
-  return DriftTracking{Timestamp::floor_of(sim::PtpTime::from_ps(egress.ps())), best.root.clock, best.steps_removed, sync.drift.scaled_41()};
+  return DriftTracking{Timestamp::floor_of(sim::PtpTime::from_ps(egress.ps())), best.root.clock, best.steps_removed,
+                       sync.drift.scaled_41()};
 }
 
 void PtpInstance::send_sync(PortNumber number, const SyncInformation& sync, Outputs& outputs) {
@@ -148,7 +161,8 @@ void PtpInstance::transmitted(const EgressReport& report, Outputs& outputs) {
     sync.rate_ratio = sync.rate_ratio_at(report.egress);
     sync.since = report.egress;
   }
-  FollowUp follow_up{header(report.port, report.sequence_id, sync.log_interval), sync.origin, sync.handed_on(report.egress), drift_of(sync, report.egress)};
+  FollowUp follow_up{header(report.port, report.sequence_id, sync.log_interval), sync.origin,
+                     sync.handed_on(report.egress), drift_of(sync, report.egress)};
   follow_up.header.correction = sync.correction_at(report.egress);
   outputs.push_back(SendMessage{report.port, follow_up});
 }

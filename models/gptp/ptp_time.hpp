@@ -10,8 +10,8 @@
 
 namespace takt::models::gptp {
 
-/// A Timestamp: seconds (48 bits) and nanoseconds (below 10^9). The simulation counts from its own start and does without an
-/// epoch, so its seconds are small; what stands in a message may be anything.
+/// A Timestamp: seconds (48 bits) and nanoseconds (below 10^9). The simulation counts from its own start and does
+/// without an epoch, so its seconds are small; what stands in a message may be anything.
 struct Timestamp {
   std::uint64_t seconds = 0;
   std::uint32_t nanoseconds = 0;
@@ -26,13 +26,14 @@ struct Timestamp {
   constexpr bool in_range() const { return seconds < 9'000'000 && nanoseconds < 1'000'000'000; }
   /// Precondition: in_range().
   constexpr sim::PtpTime time() const {
-    return sim::PtpTime::from_ps(static_cast<std::int64_t>(seconds) * 1'000'000'000'000 + std::int64_t{nanoseconds} * 1000);
+    return sim::PtpTime::from_ps(static_cast<std::int64_t>(seconds) * 1'000'000'000'000 +
+                                 std::int64_t{nanoseconds} * 1000);
   }
   auto operator<=>(const Timestamp&) const = default;
 };
 
-/// A correctionField: multiples of 2^-16 ns. Finer than a picosecond (65.536 of it are one), so of() and duration() are exact
-/// one way round.
+/// A correctionField: multiples of 2^-16 ns. Finer than a picosecond (65.536 of it are one), so of() and duration() are
+/// exact one way round.
 struct Correction {
   std::int64_t scaled_ns = 0;
 

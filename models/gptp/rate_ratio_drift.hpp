@@ -11,10 +11,11 @@
 
 namespace takt::models::gptp {
 
-/// The slope of the rate ratios of the last Syncs: the mean of the newer half of the window less that of the older half, over the
-/// time between their middles. A ratio that is handed on over many hops is old when it arrives: drifts d make the time wrong by about
-/// d T^2 / 2 for T from the grandmaster to here. A relay that knows the slope brings the ratio up to date.
-/// (IEEE 802.1ASdm has the Drift_Tracking TLV for this; here every relay finds the slope by itself, and nothing is added on the wire.)
+/// The slope of the rate ratios of the last Syncs: the mean of the newer half of the window less that of the older
+/// half, over the time between their middles. A ratio that is handed on over many hops is old when it arrives: drifts d
+/// make the time wrong by about d T^2 / 2 for T from the grandmaster to here. A relay that knows the slope brings the
+/// ratio up to date. (IEEE 802.1ASdm has the Drift_Tracking TLV for this; here every relay finds the slope by itself,
+/// and nothing is added on the wire.)
 class RateRatioDrift {
  public:
   /// `window`: Syncs, even; 0: always says that there is no drift.
@@ -42,7 +43,8 @@ class RateRatioDrift {
     // Limited to 1000 ppm/s, which no oscillator does; a change of grandmaster in between would.
     constexpr std::int64_t most = RateOffset::one / 1000;
     constexpr sim::int128 second = 1'000'000'000'000;
-    return RateOffset::from_multiple(static_cast<std::int64_t>(std::clamp(divide_rounded(rise * second, apart), -sim::int128{most}, sim::int128{most})));
+    return RateOffset::from_multiple(static_cast<std::int64_t>(
+        std::clamp(divide_rounded(rise * second, apart), -sim::int128{most}, sim::int128{most})));
   }
 
  private:

@@ -15,10 +15,12 @@ constexpr sim::EventKind hand_over_now = 1;
 constexpr sim::EventKind has_left = 2;
 constexpr sim::EventKind messages_have_come = 3;
 constexpr sim::EventKind ask_now = 4;
-constexpr sim::Duration software_delay = sim::Duration::from_ps(1000);  // from the last bit of a message to what it causes
+constexpr sim::Duration software_delay =
+    sim::Duration::from_ps(1000);  // from the last bit of a message to what it causes
 
 NodeConfig node_config(const StationPlan& plan, NodeIndex node, std::size_t ports) {
-  NodeConfig config{Station::identity_of(node), std::vector<LinkDelayConfig>(ports, plan.link), plan.instances, plan.log_gptp_capable_interval};
+  NodeConfig config{Station::identity_of(node), std::vector<LinkDelayConfig>(ports, plan.link), plan.instances,
+                    plan.log_gptp_capable_interval};
   for (const std::uint16_t port : plan.ports_without_threshold) config.ports.at(port).mean_link_delay_thresh.reset();
   return config;
 }
@@ -30,11 +32,22 @@ MessageType type_of(const Message& message) {
 
 }  // namespace
 
-Station::Station(sim::Simulation& simulation, Traffic& traffic, std::span<EgressPort> ports, NodeClock& clock, const TimestampUnit& timestamps,
-                 const StationPlan& plan, NodeIndex node, StreamIndex stream, std::string_view path)
-    : simulation_(&simulation), traffic_(&traffic), ports_(ports), clock_(&clock), timestamps_(timestamps), plan_(plan),
-      config_(node_config(plan, node, ports.size())), node_(node), stream_(stream), source_(simulation.add(*this)),
-      machine_(config_), target_(plan.target), timer_(source_.id(), sim::Phase::timer, timer_due) {
+Station::Station(sim::Simulation& simulation, Traffic& traffic, std::span<EgressPort> ports, NodeClock& clock,
+                 const TimestampUnit& timestamps, const StationPlan& plan, NodeIndex node, StreamIndex stream,
+                 std::string_view path)
+    : simulation_(&simulation),
+      traffic_(&traffic),
+      ports_(ports),
+      clock_(&clock),
+      timestamps_(timestamps),
+      plan_(plan),
+      config_(node_config(plan, node, ports.size())),
+      node_(node),
+      stream_(stream),
+      source_(simulation.add(*this)),
+      machine_(config_),
+      target_(plan.target),
+      timer_(source_.id(), sim::Phase::timer, timer_due) {
   if (plan.standby) standby_.emplace(*plan.standby, plan.target);
   sent_by_port_.resize(ports.size());
   capability_.resize(ports.size());
@@ -42,7 +55,8 @@ Station::Station(sim::Simulation& simulation, Traffic& traffic, std::span<Egress
     const std::string name = std::string(path) + ":" + std::to_string(port);
     egress_chance_.emplace_back(simulation.seed(), name, "egress timestamps");
     ingress_chance_.emplace_back(simulation.seed(), name, "ingress timestamps");
-    for (std::size_t kind = 0; !plan.processing.is_constant() && kind < std::variant_size_v<Message> * (plan.instances.size() + 1); ++kind)
+    for (std::size_t kind = 0;
+         !plan.processing.is_constant() && kind < std::variant_size_v<Message> * (plan.instances.size() + 1); ++kind)
       processing_chance_.emplace_back(simulation.seed(), name, "processing " + std::to_string(kind));
   }
   clock.free_running().add_listener(*this);
@@ -83,10 +97,18 @@ void Station::handle(sim::Simulation& simulation, const sim::Event& event) {
     case timer_due:
       if (timer_.fired(simulation, source_, event)) expire();
       break;
-    case hand_over_now: hand_over(event.argument); break;
-    case messages_have_come: take_in_all(); break;
-    case ask_now: ask_for_intervals(plan_.interval_requests[event.argument]); break;
-    default: report_egress(event.argument); break;
+    case hand_over_now:
+      hand_over(event.argument);
+      break;
+    case messages_have_come:
+      receive_all();
+      break;
+    case ask_now:
+      ask_for_intervals(plan_.interval_requests[event.argument]);
+      break;
+    default:
+      report_egress(event.argument);
+      break;
   }
 }
 
@@ -99,7 +121,9 @@ void Station::expire() {
   std::sort(due_.begin(), due_.end(), [](const Armed& a, const Armed& b) { return a.timer < b.timer; });
   for (const Armed& armed : due_) {
     // An earlier one of them may have moved or cancelled it.
-    const auto still = std::find_if(armed_.begin(), armed_.end(), [&](const Armed& other) { return other.timer == armed.timer && other.at == armed.at; });
+    const auto still = std::find_if(armed_.begin(), armed_.end(), [&](const Armed& other) {
+      return other.timer == armed.timer && other.at == armed.at;
+    });
     if (still == armed_.end()) continue;
     armed_.erase(still);
     outputs_.clear();
@@ -111,7 +135,7 @@ void Station::expire() {
 }
 
 void Station::rearm() {
-  if (is_expiring_) return;   // once at its end
+  if (is_expiring_) return;  // once at its end
   sim::LocalTime first = sim::LocalTime::never();
   for (const Armed& armed : armed_) first = std::min(first, armed.at);
   if (first == sim::LocalTime::never() || !up_)
@@ -146,8 +170,9 @@ void Station::carry_out() {
       if (lost->instance == active()) target_.sync_lost();
       if (has_standby_role(lost->instance)) standby_->sync_lost(static_cast<HotStandbyRole>(lost->instance), local());
     } else if (const auto* const change = std::get_if<GrandmasterChange>(&output)) {
-      if (change->instance == active()) target_.sync_lost();   // until the first Sync of the new one
-      if (has_standby_role(change->instance)) standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), gives_time(change->instance), local());
+      if (change->instance == active()) target_.sync_lost();  // until the first Sync of the new one
+      if (has_standby_role(change->instance))
+        standby_->set_grandmaster(static_cast<HotStandbyRole>(change->instance), gives_time(change->instance), local());
       give_time();
     }
   }
@@ -171,13 +196,17 @@ sim::Duration Station::processing_of(const SendMessage& message) {
   if (processing_chance_.empty()) return plan_.processing.greatest();
   // Requests for the delay of the link are of no domain, and behind those of all.
   std::size_t domain = 0;
-  while (domain < plan_.instances.size() && plan_.instances[domain].domain != header_of(message.message).domain) ++domain;
+  while (domain < plan_.instances.size() && plan_.instances[domain].domain != header_of(message.message).domain)
+    ++domain;
   const std::size_t kinds = std::variant_size_v<Message>;
-  return plan_.processing.draw(processing_chance_[((message.port - std::size_t{1}) * (plan_.instances.size() + 1) + domain) * kinds + message.message.index()]);
+  return plan_.processing.draw(
+      processing_chance_[((message.port - std::size_t{1}) * (plan_.instances.size() + 1) + domain) * kinds +
+                         message.message.index()]);
 }
 
 void Station::send(const SendMessage& message) {
-  simulation_->schedule(source_, simulation_->now() + processing_of(message), sim::Phase::timer, source_.id(), hand_over_now, of_this_life(keep(message)));
+  simulation_->schedule(source_, simulation_->now() + processing_of(message), sim::Phase::timer, source_.id(),
+                        hand_over_now, of_this_life(keep(message)));
 }
 
 void Station::hand_over(std::uint64_t argument) {
@@ -190,7 +219,8 @@ void Station::hand_over(std::uint64_t argument) {
   }
   encode(waiting.send.message, octets_);
   const FrameIndex frame = traffic_->produce(stream_, octets_, simulation_->now());
-  // All nodes share the stream; each port numbers what it sends, so that it does not matter who sends first at an instant.
+  // All nodes share the stream; each port numbers what it sends, so that the order of nodes within an instant does not
+  // matter.
   traffic_->frame(frame).source = AddressIndex{node_.value};
   waiting.sequence = traffic_->frame(frame).sequence = sent_by_port_[waiting.send.port - 1u]++;
   traffic_->count_production(traffic_->frame(frame), *simulation_);
@@ -239,13 +269,15 @@ void Station::report_egress(std::uint64_t argument) {
   if (!up_ || argument >> 32 != epoch_) return;
   const Header& header = header_of(message.message);
   outputs_.clear();
-  machine_.transmitted({message.port, type_of(message.message), header.domain, header.sequence_id, egress_of_slot_[slot]}, local(), outputs_);
+  machine_.transmitted(
+      {message.port, type_of(message.message), header.domain, header.sequence_id, egress_of_slot_[slot]}, local(),
+      outputs_);
   carry_out();
 }
 
 void Station::receive(sim::Simulation& simulation, FrameIndex frame, std::uint16_t port, sim::TrueTime last_bit) {
   if (cpu_ == nullptr) {
-    take_in_soon(simulation, {frame, port, last_bit});
+    receive_after_timestamp(simulation, {frame, port, last_bit});
     return;
   }
   std::size_t slot = 0;
@@ -258,25 +290,29 @@ void Station::receive(sim::Simulation& simulation, FrameIndex frame, std::uint16
 void Station::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) {
   const Arrived arrived = *std::exchange(on_cpu_[job], std::nullopt);
   if (ending == Ending::done)
-    take_in_soon(simulation, arrived);
+    receive_after_timestamp(simulation, arrived);
   else
-    traffic_->drop(arrived.frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), simulation);
+    traffic_->drop(arrived.frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload,
+                   source_.id(), simulation);
 }
 
-void Station::take_in_soon(sim::Simulation& simulation, const Arrived& arrived) {
+void Station::receive_after_timestamp(sim::Simulation& simulation, const Arrived& arrived) {
   // Clocks change in the control phase of an instant only, so that all that happens in it sees one clock.
-  if (arrived_.empty()) simulation.schedule(source_, simulation.now() + software_delay, sim::Phase::control, source_.id(), messages_have_come, 0);
+  if (arrived_.empty())
+    simulation.schedule(source_, simulation.now() + software_delay, sim::Phase::control, source_.id(),
+                        messages_have_come, 0);
   arrived_.push_back(arrived);
 }
 
-void Station::take_in_all() {
-  sim::insertion_sort(arrived_,
-                   [](const Arrived& a, const Arrived& b) { return a.last_bit != b.last_bit ? a.last_bit < b.last_bit : a.port < b.port; });
-  for (const Arrived& arrived : arrived_) take_in(arrived);
+void Station::receive_all() {
+  sim::insertion_sort(arrived_, [](const Arrived& a, const Arrived& b) {
+    return a.last_bit != b.last_bit ? a.last_bit < b.last_bit : a.port < b.port;
+  });
+  for (const Arrived& arrived : arrived_) receive_one(arrived);
   arrived_.clear();
 }
 
-void Station::take_in(const Arrived& arrived) {
+void Station::receive_one(const Arrived& arrived) {
   const Frame& record = traffic_->frame(arrived.frame);
   if (!up_) {
     traffic_->drop(arrived.frame, DropReason::node_down, source_.id(), *simulation_);
@@ -290,7 +326,8 @@ void Station::take_in(const Arrived& arrived) {
   const sim::TrueTime point = arrived.last_bit - ports_[arrived.port].octet_time() * std::int64_t{record.length};
   traffic_->release(arrived.frame);
   if (!message) return;
-  const sim::LocalTime ingress = timestamps_.ingress(clock_->free_running().local_at(point), ingress_chance_[arrived.port]);
+  const sim::LocalTime ingress =
+      timestamps_.ingress(clock_->free_running().local_at(point), ingress_chance_[arrived.port]);
   outputs_.clear();
   machine_.received(static_cast<PortNumber>(arrived.port + 1), *message, ingress, local(), outputs_);
   carry_out();
@@ -299,7 +336,8 @@ void Station::take_in(const Arrived& arrived) {
 void Station::discipline(const SyncSample& sample) {
   LocalClock& disciplined = clock_->disciplined();
   const sim::LocalTime shown = disciplined.local_at(clock_->free_running().true_at(sample.at));
-  if (has_standby_role(sample.instance)) standby_->sample(static_cast<HotStandbyRole>(sample.instance), sample, shown, local());
+  if (has_standby_role(sample.instance))
+    standby_->sample(static_cast<HotStandbyRole>(sample.instance), sample, shown, local());
   if (sample.instance != active()) return;
   const ServoAction action = target_.sample(sample, shown);
   if (action.step != sim::Duration()) {
@@ -362,7 +400,8 @@ NodeIndex Station::grandmaster() const {
 
 void Station::note_capability() {
   for (std::uint16_t port = 0; port < capability_.size(); ++port)
-    if (const bool is_capable = up_ && obstacle(port) == NotCapable::none; is_capable != capability_[port].is_capable) capability_[port] = {is_capable, simulation_->now()};
+    if (const bool is_capable = up_ && obstacle(port) == NotCapable::none; is_capable != capability_[port].is_capable)
+      capability_[port] = {is_capable, simulation_->now()};
 }
 
 void Station::note_change() {

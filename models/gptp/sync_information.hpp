@@ -1,4 +1,5 @@
-// What a Sync brings, on its way through a node: the arithmetic of MDSyncReceive and MDSyncSend, IEEE 802.1AS-2020 11.2.14 and 11.2.15.
+// What a Sync brings, on its way through a node: the arithmetic of MDSyncReceive and MDSyncSend, IEEE
+// 802.1AS-2020 11.2.14 and 11.2.15.
 #pragma once
 
 #include <cstdint>
@@ -12,23 +13,25 @@ namespace takt::models::gptp {
 struct LinkMeasure {
   sim::Duration from_neighbor;  // mean link delay plus asymmetry, in the neighbour's time base
   ClockRate neighbor_rate_ratio;
-  RateOffset neighbor_rate_ratio_drift = {};   // per second
+  RateOffset neighbor_rate_ratio_drift = {};  // per second
 };
 
 /// The time of the grandmaster as a function of the node's free-running clock:
-/// at the local instant `since` it was origin + correction, and from there it runs at rate_ratio, which changes by drift.
+/// at the local instant `since` it was origin + correction, and from there it runs at rate_ratio, which changes by
+/// drift.
 struct SyncInformation {
-  Timestamp origin = {};             // handed on unchanged
-  Correction correction = {};        // when the Sync left the neighbour
-  sim::LocalTime since = {};         // upstreamTxTime: that instant by one's own clock
-  ClockRate rate_ratio = {};         // grandmaster / own clock
-  RateOffset drift = {};             // of rate_ratio, per second
+  Timestamp origin = {};       // handed on unchanged
+  Correction correction = {};  // when the Sync left the neighbour
+  sim::LocalTime since = {};   // upstreamTxTime: that instant by one's own clock
+  ClockRate rate_ratio = {};   // grandmaster / own clock
+  RateOffset drift = {};       // of rate_ratio, per second
   FollowUpInformation information = {};
   std::int8_t log_interval = -3;
 
   /// Precondition: origin and correction are in_range().
-  static SyncInformation received(const Timestamp& origin, Correction correction, const FollowUpInformation& information,
-                                  sim::LocalTime ingress, const LinkMeasure& link) {
+  static SyncInformation received(const Timestamp& origin, Correction correction,
+                                  const FollowUpInformation& information, sim::LocalTime ingress,
+                                  const LinkMeasure& link) {
     const RateOffset upstream = RateOffset::from_scaled_41(information.cumulative_scaled_rate_offset);
     return {.origin = origin,
             .correction = correction,
@@ -38,8 +41,12 @@ struct SyncInformation {
   }
 
   /// The correction when it leaves again at `egress`: link and residence are added in the grandmaster's time.
-  Correction correction_at(sim::LocalTime egress) const { return correction + Correction::of(running().times(egress - since)); }
-  sim::PtpTime grandmaster_time_at(sim::LocalTime at) const { return origin.time() + correction.duration() + running().times(at - since); }
+  Correction correction_at(sim::LocalTime egress) const {
+    return correction + Correction::of(running().times(egress - since));
+  }
+  sim::PtpTime grandmaster_time_at(sim::LocalTime at) const {
+    return origin.time() + correction.duration() + running().times(at - since);
+  }
   ClockRate rate_ratio_at(sim::LocalTime at) const { return running().after(at - since); }
   /// The TLV for the next node, if the Sync leaves at `egress`.
   FollowUpInformation handed_on(sim::LocalTime egress) const {
@@ -50,8 +57,8 @@ struct SyncInformation {
   DriftingRate running() const { return {rate_ratio, drift}; }
 };
 
-/// Where a grandmaster has its time from: a clock that showed `time` at the local instant `since` and runs at `rate` against the
-/// free-running clock.
+/// Where a grandmaster has its time from: a clock that showed `time` at the local instant `since` and runs at `rate`
+/// against the free-running clock.
 struct SourceTime {
   sim::LocalTime since = {};
   sim::PtpTime time = {};

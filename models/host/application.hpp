@@ -20,13 +20,15 @@ class HostServices {
   virtual sim::LocalTime now() const = 0;
   /// Wakes the application at `time` plus the operating system's wake-up latency; replaces the alarm's earlier setting.
   virtual void set_alarm(AlarmId alarm, sim::LocalTime time) = 0;
-  /// The same without the operating system's latency: for an application that knows itself how late its threads respond.
+  /// The same without the operating system's latency: for an application that knows itself how late its threads
+  /// respond.
   virtual void set_exact_alarm(AlarmId alarm, sim::LocalTime time) = 0;
   virtual void cancel_alarm(AlarmId alarm) = 0;
-  /// Wakes the application by the alarm when it has worked for so long (of true time, without the operating system's wake-up latency).
+  /// Wakes the application by the alarm when it has worked for so long (of true time, without the operating system's
+  /// wake-up latency).
   virtual void work(AlarmId alarm, sim::Duration duration) = 0;
-  /// Has one of the application's threads do what it does on the host's processor, and wakes the application by the alarm when it is done. False
-  /// if that takes no time of a processor: then it is done.
+  /// Has one of the application's threads do what it does on the host's processor, and wakes the application by the
+  /// alarm when it is done. False if that takes no time of a processor: then it is done.
   virtual bool begin_job(std::uint32_t thread, AlarmId alarm) = 0;
   /// Sends the octets on a stream of which this host is the talker.
   virtual void send(StreamIndex stream, std::span<const std::byte> payload) = 0;

@@ -7,7 +7,7 @@
 
 namespace takt::models {
 namespace {
-constexpr sim::Duration least_work = sim::Duration::from_ps(1);   // what lasts no time would end before it is seen
+constexpr sim::Duration least_work = sim::Duration::from_ps(1);  // what lasts no time would end before it is seen
 }
 
 Cpu::Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::string_view path)
@@ -17,9 +17,11 @@ Cpu::Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::
     TAKT_CHECK(thread.weight > 0, "a fair thread has a share");
     TAKT_CHECK(!thread.core || *thread.core < plan.cores, "a thread runs on a core that there is");
     TAKT_CHECK(thread.policy != SchedulingPolicy::deadline || thread.deadline, "a thread by deadline has one");
-    threads_.push_back({&thread, sim::RandomStream(simulation.seed(), std::string(path) + "/" + thread.name, "execution")});
+    threads_.push_back(
+        {&thread, sim::RandomStream(simulation.seed(), std::string(path) + "/" + thread.name, "execution")});
   }
-  for (std::uint16_t core = 0; core < plan.cores; ++core) cores_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, core));
+  for (std::uint16_t core = 0; core < plan.cores; ++core)
+    cores_.emplace_back(sim::Timer(source_.id(), sim::Phase::timer, core));
 }
 
 /// Before the ports, which see what jobs send at their ends. What is submitted while it decides comes behind them.
@@ -28,7 +30,8 @@ void Cpu::decide_later() {
   asked_ = true;
 }
 
-void Cpu::submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work, sim::Duration besides) {
+void Cpu::submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job,
+                 sim::TrueTime released, std::optional<sim::Duration> work, sim::Duration besides) {
   TAKT_CHECK(thread < threads_.size() && released <= now(), "a job is for a thread, and not for later");
   arrived_.push_back({thread, user_id, rank, {&user, job, released, work, besides}});
   decide_later();
@@ -70,11 +73,13 @@ void Cpu::charge(Core& core) {
   if (observer_ != nullptr) observer_->ran(*core.thread, ran);
 }
 
-/// Fair threads that were away have no claim on what the others ran meanwhile, even if all of them are away by now: what a thread starts from never goes back.
+/// Fair threads that were away have no claim on what the others ran meanwhile, even if all of them are away by now:
+/// what a thread starts from never goes back.
 void Cpu::keep_fair_time() {
   std::optional<std::uint64_t> least;
   for (const Thread& thread : threads_)
-    if (thread.plan->policy == SchedulingPolicy::fair && !thread.jobs.empty()) least = std::min(least.value_or(thread.virtual_time), thread.virtual_time);
+    if (thread.plan->policy == SchedulingPolicy::fair && !thread.jobs.empty())
+      least = std::min(least.value_or(thread.virtual_time), thread.virtual_time);
   fair_time_ = std::max(fair_time_, least.value_or(0));
 }
 
@@ -92,7 +97,8 @@ void Cpu::handle(sim::Simulation& simulation, const sim::Event& event) {
 /// When the instant is complete, so that it does not matter whether what else happens in it happened before.
 void Cpu::end_jobs() {
   for (Core& core : cores_)
-    if (core.thread && core.switching == sim::Duration() && threads_[*core.thread].remaining == sim::Duration()) end_job(*core.thread);
+    if (core.thread && core.switching == sim::Duration() && threads_[*core.thread].remaining == sim::Duration())
+      end_job(*core.thread);
 }
 
 void Cpu::end_job(std::uint32_t number) {
@@ -100,8 +106,10 @@ void Cpu::end_job(std::uint32_t number) {
   const Job job = thread.jobs.front();
   thread.jobs.pop_front();
   const sim::Duration response = now() - job.released;
-  simulation_->digest().add(static_cast<std::uint32_t>(Occurrence::job_done), sim::joined(node_.value, number), now(), static_cast<std::uint64_t>(response.ps()));
-  if (observer_ != nullptr) observer_->job_done(number, job.released, response, !thread.plan->deadline || response <= *thread.plan->deadline);
+  simulation_->digest().add(static_cast<std::uint32_t>(Occurrence::job_done), sim::joined(node_.value, number), now(),
+                            static_cast<std::uint64_t>(response.ps()));
+  if (observer_ != nullptr)
+    observer_->job_done(number, job.released, response, !thread.plan->deadline || response <= *thread.plan->deadline);
   if (thread.jobs.empty()) {
     cores_[*thread.core].thread.reset();
     thread.core.reset();
@@ -113,15 +121,18 @@ void Cpu::end_job(std::uint32_t number) {
 
 void Cpu::begin(Thread& thread) {
   const Job& job = thread.jobs.front();
-  thread.remaining = std::max(least_work, (job.work ? *job.work : thread.plan->execution.draw(thread.chance)) + job.besides);
+  thread.remaining =
+      std::max(least_work, (job.work ? *job.work : thread.plan->execution.draw(thread.chance)) + job.besides);
   thread.is_begun = false;
 }
 
-void Cpu::take_in() {
+void Cpu::accept_pending() {
   // A user that is refused may submit at once: that is seen when it decides again.
   taken_in_.clear();
   std::swap(taken_in_, arrived_);
-  std::stable_sort(taken_in_.begin(), taken_in_.end(), [](const Arrived& a, const Arrived& b) { return std::tie(a.thread, a.user_id, a.rank) < std::tie(b.thread, b.user_id, b.rank); });
+  std::stable_sort(taken_in_.begin(), taken_in_.end(), [](const Arrived& a, const Arrived& b) {
+    return std::tie(a.thread, a.user_id, a.rank) < std::tie(b.thread, b.user_id, b.rank);
+  });
   for (const Arrived& arrived : taken_in_) {
     Thread& thread = threads_[arrived.thread];
     if (thread.jobs.size() >= thread.plan->most_waiting) {
@@ -139,7 +150,8 @@ void Cpu::take_in() {
 
 /// It runs, and nobody may interrupt it. Between two jobs anybody may, so a job that has not begun yet is not held.
 bool Cpu::is_held(const Thread& thread) const {
-  return thread.core && thread.is_begun && cores_[*thread.core].switching == sim::Duration() && thread.remaining <= thread.plan->non_preemptive;
+  return thread.core && thread.is_begun && cores_[*thread.core].switching == sim::Duration() &&
+         thread.remaining <= thread.plan->non_preemptive;
 }
 
 bool Cpu::is_more_urgent(std::uint32_t a, std::uint32_t b) const {
@@ -152,7 +164,7 @@ bool Cpu::is_more_urgent(std::uint32_t a, std::uint32_t b) const {
     switch (plan.policy) {
       case SchedulingPolicy::deadline:
         first = thread.jobs.front().released.plus_saturated(*plan.deadline).ps();
-        second = thread.is_begun ? 0 : 1;   // equal deadlines are no reason to interrupt
+        second = thread.is_begun ? 0 : 1;  // equal deadlines are no reason to interrupt
         break;
       case SchedulingPolicy::fifo:
         first = -std::int64_t{plan.priority};
@@ -161,7 +173,7 @@ bool Cpu::is_more_urgent(std::uint32_t a, std::uint32_t b) const {
       case SchedulingPolicy::fair:
         first = thread.core && thread.slice_used < plan_->slice ? 0 : 1;
         second = thread.virtual_time;
-        third = thread.core.has_value();   // among equals it is the others' turn
+        third = thread.core.has_value();  // among equals it is the others' turn
         break;
     }
     return std::tuple(!is_held(thread), plan.policy, first, second, third, number);
@@ -180,8 +192,9 @@ void Cpu::choose() {
     if (const std::optional<std::uint16_t> core = core_for(threads_[t])) placed_[*core] = t;
 }
 
-/// Of the cores that no more urgent thread has taken: the one on which it is; the one to which it is bound; else an idle one, if possible one for
-/// which nobody waits who is bound to it, and then the one on which it was; else that of the least urgent thread.
+/// Of the cores that no more urgent thread has taken: the one on which it is; the one to which it is bound; else an
+/// idle one, if possible one for for which no bound job waits, and then the one on which it was; else that of the least
+/// urgent thread.
 std::optional<std::uint16_t> Cpu::core_for(const Thread& thread) const {
   const std::optional<std::uint16_t>& own = thread.core ? thread.core : thread.plan->core;
   if (own && !placed_[*own]) return own;
@@ -192,7 +205,9 @@ std::optional<std::uint16_t> Cpu::core_for(const Thread& thread) const {
     if (placed_[core]) continue;
     const std::optional<std::uint32_t>& occupant = cores_[core].thread;
     const std::ptrdiff_t behind = occupant ? ready_.end() - std::find(ready_.begin(), ready_.end(), *occupant) : 0;
-    const bool is_wanted = std::any_of(ready_.begin(), ready_.end(), [&](std::uint32_t t) { return threads_[t].plan->core == core && !threads_[t].core; });
+    const bool is_wanted = std::any_of(ready_.begin(), ready_.end(), [&](std::uint32_t t) {
+      return threads_[t].plan->core == core && !threads_[t].core;
+    });
     const std::tuple key(behind, is_wanted, thread.last_core != core);
     if (!best || key < best_key) std::tie(best, best_key) = std::tuple(std::optional(core), key);
   }
@@ -214,7 +229,9 @@ void Cpu::dispatch(std::uint16_t number, std::optional<std::uint32_t> thread) {
 }
 
 void Cpu::arm() {
-  const bool fair_wait = std::any_of(ready_.begin(), ready_.end(), [this](std::uint32_t t) { return threads_[t].plan->policy == SchedulingPolicy::fair && !threads_[t].core; });
+  const bool fair_wait = std::any_of(ready_.begin(), ready_.end(), [this](std::uint32_t t) {
+    return threads_[t].plan->policy == SchedulingPolicy::fair && !threads_[t].core;
+  });
   for (Core& core : cores_) {
     if (!core.thread) {
       core.timer.cancel();
@@ -222,7 +239,8 @@ void Cpu::arm() {
     }
     const Thread& thread = threads_[*core.thread];
     sim::Duration next = core.switching + thread.remaining;
-    if (fair_wait && thread.plan->policy == SchedulingPolicy::fair) next = std::min(next, core.switching + plan_->slice - thread.slice_used);
+    if (fair_wait && thread.plan->policy == SchedulingPolicy::fair)
+      next = std::min(next, core.switching + plan_->slice - thread.slice_used);
     core.timer.arm(*simulation_, source_, now().plus_saturated(next));
   }
 }
@@ -232,7 +250,7 @@ void Cpu::decide(sim::Simulation&) {
   for (Core& core : cores_) charge(core);
   end_jobs();
   asked_ = false;
-  take_in();
+  accept_pending();
   choose();
   for (Thread& thread : threads_) thread.core.reset();
   for (std::uint16_t core = 0; core < cores_.size(); ++core) dispatch(core, placed_[core]);

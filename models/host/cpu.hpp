@@ -1,4 +1,5 @@
-// The cores of a host and the threads that share them: preemptive scheduling by deadlines, fixed priorities and fair shares.
+// The cores of a host and the threads that share them: preemptive scheduling by deadlines, fixed priorities and fair
+// shares.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace takt::models {
 class CpuUser {
  public:
   virtual ~CpuUser() = default;
-  enum class Ending : std::uint8_t { done, refused, crashed };   ///< refused: too many waited
+  enum class Ending : std::uint8_t { done, refused, crashed };  ///< refused: too many waited
   virtual void job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) = 0;
 };
 
@@ -33,16 +34,18 @@ class CpuObserver {
   virtual void ran(std::uint32_t thread, sim::Duration time) = 0;
 };
 
-/// All that is released at an instant is seen before anything is decided, so the order of what happens in it does not count.
+/// All that is released at an instant is seen before anything is decided, so the order of what happens in it does not
+/// count.
 class Cpu final : public sim::Component {
  public:
   /// `path` names the host in the random streams. `plan` outlives the processor.
   Cpu(sim::Simulation& simulation, const CpuPlan& plan, NodeIndex node, std::string_view path);
 
-  /// A job for the thread. `job` is what the user gets back; `user_id` and `rank` put the jobs of an instant in order. Released at `released` (not after
-  /// now), from when its response time counts. It lasts `work`, or what the thread's execution time is drawn to be, and `besides` more.
-  void submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job, sim::TrueTime released, std::optional<sim::Duration> work = {},
-              sim::Duration besides = {});
+  /// A job for the thread. `job` is what the user gets back; `user_id` and `rank` put the jobs of an instant in order.
+  /// Released at `released` (not after now), from when its response time counts. It lasts `work`, or what the thread's
+  /// execution time is drawn to be, and `besides` more.
+  void submit(std::uint32_t thread, CpuUser& user, std::uint32_t user_id, std::uint32_t rank, std::uint64_t job,
+              sim::TrueTime released, std::optional<sim::Duration> work = {}, sim::Duration besides = {});
   /// All jobs end.
   void crash();
   void set_observer(CpuObserver* observer) { observer_ = observer; }
@@ -71,27 +74,27 @@ class Cpu final : public sim::Component {
   struct Thread {
     const CpuThreadPlan* plan = nullptr;
     sim::RandomStream chance;
-    std::deque<Job> jobs = {};                  // the first is being worked at
-    sim::Duration remaining = {};               // of the first
-    bool is_begun = false;                 // the first has been worked at
+    std::deque<Job> jobs = {};     // the first is being worked at
+    sim::Duration remaining = {};  // of the first
+    bool is_begun = false;         // the first has been worked at
     sim::TrueTime ready_since = {};
-    sim::Duration slice_used = {};              // without switching
-    std::uint64_t virtual_time = 0;        // of fair: what it worked, over its weight
-    std::optional<std::uint16_t> core = {};   // on which it runs
+    sim::Duration slice_used = {};           // without switching
+    std::uint64_t virtual_time = 0;          // of fair: what it worked, over its weight
+    std::optional<std::uint16_t> core = {};  // on which it runs
     std::optional<std::uint16_t> last_core = {};
   };
   struct Core {
     explicit Core(sim::Timer t) : timer(t) {}
-    std::optional<std::uint32_t> thread = {};   // that runs
-    std::optional<std::uint32_t> last = {};     // that was on it last, for some time
-    sim::Duration switching;                    // that is left
+    std::optional<std::uint32_t> thread = {};  // that runs
+    std::optional<std::uint32_t> last = {};    // that was on it last, for some time
+    sim::Duration switching;                   // that is left
     sim::TrueTime since;
-    sim::Timer timer;                           // end of the job, or of a slice
+    sim::Timer timer;  // end of the job, or of a slice
   };
   void decide_later();
   void charge(Core& core);
   void keep_fair_time();
-  void take_in();
+  void accept_pending();
   void begin(Thread& thread);
   void end_jobs();
   void end_job(std::uint32_t thread);
@@ -108,11 +111,11 @@ class Cpu final : public sim::Component {
   sim::EventSource source_;
   std::vector<Thread> threads_;
   std::vector<Core> cores_;
-  std::vector<Arrived> arrived_;           // at this instant
+  std::vector<Arrived> arrived_;  // at this instant
   std::vector<Arrived> taken_in_;
-  std::uint64_t fair_time_ = 0;            // the least virtual time of fair threads with jobs; never goes back
-  std::vector<std::uint32_t> ready_;       // the most urgent first
-  std::vector<std::optional<std::uint32_t>> placed_;   // by core
+  std::uint64_t fair_time_ = 0;       // the least virtual time of fair threads with jobs; never goes back
+  std::vector<std::uint32_t> ready_;  // the most urgent first
+  std::vector<std::optional<std::uint32_t>> placed_;  // by core
   CpuObserver* observer_ = nullptr;
   bool asked_ = false;
   bool is_deciding_ = false;

@@ -6,7 +6,8 @@
 
 namespace takt::models {
 
-/// Releases a job of its thread at offset + n * every on the host's clock, each after the latency of a wake-up. What a wake-up passes over is left out.
+/// Releases a job of its thread at offset + n * every on the host's clock, each after the latency of a wake-up. What a
+/// wake-up passes over is left out.
 class CpuLoad final : public Application {
  public:
   /// `thread`: by which the process knows the thread (HostServices::begin_job).
@@ -30,7 +31,8 @@ class CpuLoad final : public Application {
     const std::int64_t late = host.now().ps() - load_.offset.ps();
     const std::int64_t next = late < 0 ? 0 : late / load_.every.ps() + 1;
     const sim::int128 due = load_.offset.ps() + static_cast<sim::int128>(next) * load_.every.ps();
-    host.set_alarm(release, due < sim::LocalTime::never().ps() ? sim::LocalTime::from_ps(static_cast<std::int64_t>(due)) : sim::LocalTime::never());
+    host.set_alarm(release, due < sim::LocalTime::never().ps() ? sim::LocalTime::from_ps(static_cast<std::int64_t>(due))
+                                                               : sim::LocalTime::never());
   }
 
   CpuThreadPlan::Load load_;

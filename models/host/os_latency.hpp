@@ -9,7 +9,7 @@
 
 namespace takt::models {
 
-/// Three delays of a host. Each is fixed or drawn from a stream that bears the name of who draws.
+/// Three delays of a host. Each is fixed or drawn from a random stream named after its user.
 struct OsLatency {
   sim::Distribution transmit = sim::Distribution::constant({});  ///< application to network interface
   sim::Distribution receive = sim::Distribution::constant({});   ///< network interface to application
@@ -19,7 +19,8 @@ struct OsLatency {
 /// One of these delays with its own stream of chance. Later samples never overtake earlier ones.
 class LatencyLine {
  public:
-  LatencyLine(const sim::Distribution& distribution, std::uint64_t seed, std::string_view path, std::string_view purpose)
+  LatencyLine(const sim::Distribution& distribution, std::uint64_t seed, std::string_view path,
+              std::string_view purpose)
       : distribution_(&distribution), stream_(seed, path, purpose) {}
 
   bool is_none() const { return distribution_->is_constant() && distribution_->greatest() == sim::Duration(); }

@@ -17,25 +17,29 @@ namespace takt::models {
 class Process final : public sim::Component, public HostServices, public CpuUser {
  public:
   /// `path` names the process in the random streams, e.g. "robot/trajectory". All references outlive the process.
-  Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock, const OsLatency& latency,
-          std::string_view path, std::unique_ptr<Application> application);
+  Process(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock,
+          const OsLatency& latency, std::string_view path, std::unique_ptr<Application> application);
 
-  /// What the process does takes time of a processor, which outlives it. `turns`: the thread on which each of its alarms and messages is a job; `threads`: those of
-  /// the application's own threads (HostServices::begin_job); `transmit`: that of the protocol stack for each frame that it sends.
+  /// What the process does takes time of a processor, which outlives it. `turns`: the thread on which each of its
+  /// alarms and messages is a job; `threads`: those of the application's own threads (HostServices::begin_job);
+  /// `transmit`: that of the protocol stack for each frame that it sends.
   struct CpuThreads {
     std::optional<std::uint32_t> turns = {};
     std::vector<std::optional<std::uint32_t>> threads = {};
     std::optional<std::uint32_t> transmit = {};
   };
   void run_on(Cpu& cpu, CpuThreads threads);
-  /// Its messages are secured, which takes time: of each that is sent before anything else, of each that has come before the application hears of it. On the thread of its turns sealing is
-  /// a job of its own, behind those that wait, and opening a part of the job of the message; without one they pass beside everything else.
+  /// Its messages are secured, which takes time: of each that is sent before anything else, of each that has come
+  /// before the application hears of it. On the thread of its turns sealing is a job of its own, behind those that
+  /// wait, and opening a part of the job of the message; without one they pass beside everything else.
   void secure(sim::Duration seal, sim::Duration open);
 
-  /// Whether a frame passes nothing but a latency on its way to the network interface: neither a processor nor a choice among interfaces.
+  /// Whether a frame passes nothing but a latency on its way to the network interface: neither a processor nor a choice
+  /// among interfaces.
   bool sends_plainly() const { return cpu_ == nullptr && output_->is_plain(); }
-  /// Nobody else hands frames to the host's interface, and they wait for nothing but each other: what is sent goes there. Precondition: sends_plainly().
-  void send_by(SoleSender& sender) { sole_sender_ = &sender; }
+  /// Nobody else hands frames to the host's interface, and they wait for nothing but each other: what is sent goes
+  /// there. Precondition: sends_plainly().
+  void send_by(SingleTalkerPort& sender) { single_talker_port_ = &sender; }
 
   /// Starts the application at the present instant.
   void start() { application_->start(*this); }
@@ -83,7 +87,8 @@ class Process final : public sim::Component, public HostServices, public CpuUser
 
   sim::ComponentId id() const { return source_.id(); }
 
-  /// Two applications of one host that act on each other: alarms of both that are due at one instant expire in the order of their times.
+  /// Two applications of one host that act on each other: alarms of both that are due at one instant expire in the
+  /// order of their times.
   static void join(Process& a, Process& b) {
     a.partner_ = &b;
     b.partner_ = &a;
@@ -95,7 +100,7 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   std::uint32_t stored(StreamIndex stream, std::span<const std::byte> payload);
   void open_message(StreamIndex stream, std::span<const std::byte> payload);
   void keep_message(StreamIndex stream, std::span<const std::byte> payload);
-  void take_message(std::uint32_t slot, Ending ending);
+  void read_message(std::uint32_t slot, Ending ending);
   std::uint64_t job_of(AlarmId alarm);
   void expire_in_order();
   void hand_over(FrameIndex frame, bool last);
@@ -110,18 +115,18 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   LatencyLine wake_up_;
   sim::Duration seal_;
   sim::Duration open_;
-  SoleSender* sole_sender_ = nullptr;     // see send_by()
-  std::uint32_t crashes_ = 0;             // what was being opened is lost
+  SingleTalkerPort* single_talker_port_ = nullptr;  // see send_by()
+  std::uint32_t crashes_ = 0;                       // what was being opened is lost
   bool transmits_at_once_;
   bool wakes_at_once_;
   struct Alarm {
     explicit Alarm(sim::Timer t) : timer(t) {}
     sim::Timer timer;
-    sim::Duration latency;        // of its next wake-up; drawn once, however often the alarm is moved before
+    sim::Duration latency;  // of its next wake-up; drawn once, however often the alarm is moved before
     bool has_latency = false;
-    sim::LocalTime time = sim::LocalTime::never();   // when it is to expire
-    bool is_exact = false;        // wakes at once, whatever runs on the processor
-    std::uint32_t job = 0;        // on the processor, that wakes the application at its end; 0: none
+    sim::LocalTime time = sim::LocalTime::never();  // when it is to expire
+    bool is_exact = false;                          // wakes at once, whatever runs on the processor
+    std::uint32_t job = 0;                          // on the processor, that wakes the application at its end; 0: none
   };
   struct Message {
     StreamIndex stream;
@@ -138,8 +143,8 @@ class Process final : public sim::Component, public HostServices, public CpuUser
   std::unique_ptr<Application> application_;
   Cpu* cpu_ = nullptr;
   CpuThreads threads_;
-  std::uint32_t jobs_ = 0;                // of alarms
-  std::vector<Message> messages_;         // that are opened or wait for the processor, by slot
+  std::uint32_t jobs_ = 0;         // of alarms
+  std::vector<Message> messages_;  // that are opened or wait for the processor, by slot
   std::vector<std::uint32_t> free_messages_;
 };
 

@@ -12,7 +12,8 @@ constexpr sim::EventKind transmit_now = 1;
 /// offset + period * count; never() if that is beyond all instants.
 sim::LocalTime instant(sim::Duration offset, sim::Duration period, std::int64_t count) {
   const sim::int128 ps = offset.ps() + static_cast<sim::int128>(period.ps()) * count;
-  return ps >= sim::LocalTime::never().ps() ? sim::LocalTime::never() : sim::LocalTime::from_ps(static_cast<std::int64_t>(ps));
+  return ps >= sim::LocalTime::never().ps() ? sim::LocalTime::never()
+                                            : sim::LocalTime::from_ps(static_cast<std::int64_t>(ps));
 }
 
 template <class... Cases>
@@ -20,12 +21,13 @@ struct Overloaded : Cases... {
   using Cases::operator()...;
 };
 template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 14 needs to be told
+Overloaded(Cases...) -> Overloaded<Cases...>;  // clang 14 needs the deduction guide
 
 }  // namespace
 
-Talker::Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock, const OsLatency& latency,
-               std::string_view path, StreamIndex stream, Octets payload, TalkerSchedule schedule)
+Talker::Talker(sim::Simulation& simulation, Traffic& traffic, HostOutput& output, const LocalClock& clock,
+               const OsLatency& latency, std::string_view path, StreamIndex stream, Octets payload,
+               TalkerSchedule schedule)
     : traffic_(&traffic),
       output_(&output),
       source_(simulation.add(*this)),
@@ -49,8 +51,8 @@ sim::LocalTime Talker::time_of_next() {
       Overloaded{[&](const PeriodicSchedule& s) {
                    LocalTime time = instant(s.offset, s.period, count);
                    if (s.jitter > Duration())
-                     time = time.plus_saturated(
-                         Duration::from_ps(static_cast<std::int64_t>(chance_.below(static_cast<std::uint64_t>(s.jitter.ps()) + 1))));
+                     time = time.plus_saturated(Duration::from_ps(
+                         static_cast<std::int64_t>(chance_.below(static_cast<std::uint64_t>(s.jitter.ps()) + 1))));
                    return time;
                  },
                  [&](const ExponentialSchedule& s) {
@@ -84,7 +86,8 @@ inline void Talker::go_on(sim::Simulation& simulation) {
 
 inline void Talker::schedule_next(sim::Simulation& simulation) {
   const bool follows = steps_.is_set();
-  const sim::LocalTime time = follows || (has_begun_ && fixed_step_ > sim::Duration()) ? last_.plus_saturated(fixed_step_) : time_of_next();
+  const sim::LocalTime time =
+      follows || (has_begun_ && fixed_step_ > sim::Duration()) ? last_.plus_saturated(fixed_step_) : time_of_next();
   is_over_ = time >= until_;
   if (is_over_) return;
   last_ = time;
@@ -97,7 +100,8 @@ void Talker::start(sim::Simulation& simulation) {
   const sim::LocalTime begin = clock_->local_at(simulation.now());
   const auto first = [begin](sim::Duration offset, sim::Duration period) {
     const std::int64_t late = begin.ps() - offset.ps();
-    return late <= 0 || period <= sim::Duration() ? std::uint64_t{0} : static_cast<std::uint64_t>((late - 1) / period.ps() + 1);
+    return late <= 0 || period <= sim::Duration() ? std::uint64_t{0}
+                                                  : static_cast<std::uint64_t>((late - 1) / period.ps() + 1);
   };
   std::visit(Overloaded{[&](const PeriodicSchedule& s) { count_ = first(s.offset, s.period); },
                         [&](ExponentialSchedule& s) { s.offset = std::max(s.offset, begin - sim::LocalTime()); },
@@ -108,7 +112,8 @@ void Talker::start(sim::Simulation& simulation) {
                         }},
              schedule_);
   has_begun_ = count_ > 0;
-  if (has_begun_ && fixed_step_ > sim::Duration()) last_ = instant(std::get<PeriodicSchedule>(schedule_).offset, fixed_step_, static_cast<std::int64_t>(count_) - 1);
+  if (has_begun_ && fixed_step_ > sim::Duration())
+    last_ = instant(std::get<PeriodicSchedule>(schedule_).offset, fixed_step_, static_cast<std::int64_t>(count_) - 1);
   schedule_next(simulation);
 }
 
@@ -137,9 +142,10 @@ void Talker::mark(Frame& frame) const {
   if (host_priority_) frame.queue_priority = *host_priority_;
 }
 
-void Talker::hand_over_with_care(sim::Simulation& simulation, FrameIndex frame, bool is_last) {
+void Talker::send_with_processing(sim::Simulation& simulation, FrameIndex frame, bool is_last) {
   const sim::LocalTime now = clock_->local_at(simulation.now());
-  if (host_priority_ && !launch_) traffic_->frame(frame).eligible = now;   // where others have launch times it is due at once
+  if (host_priority_ && !launch_)
+    traffic_->frame(frame).eligible = now;  // where others have launch times it is due at once
   if (is_last)
     output_->offer_last(simulation, frame, source_.id().index, now);
   else
@@ -150,22 +156,23 @@ inline void Talker::hand_over(sim::Simulation& simulation, FrameIndex frame) {
   if (output_->is_plain()) [[likely]]
     output_->port().offer_last(simulation, frame, traffic_->frame(frame), source_.id().index);
   else
-    hand_over_with_care(simulation, frame, true);
+    send_with_processing(simulation, frame, true);
 }
 
 /// The protocol stack has sent a frame, or never will.
 void Talker::job_ended(sim::Simulation& simulation, std::uint64_t job, Ending ending) {
   const FrameIndex frame{static_cast<std::uint32_t>(job)};
   if (ending == Ending::done)
-    hand_over_with_care(simulation, frame, false);
+    send_with_processing(simulation, frame, false);
   else
-    traffic_->drop(frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(), simulation);
+    traffic_->drop(frame, ending == Ending::crashed ? DropReason::node_down : DropReason::host_overload, source_.id(),
+                   simulation);
 }
 
 void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   if (event.kind() == transmit_now) {
     if (cpu_ != nullptr) [[unlikely]] {
-      Traffic::tell_processing(simulation, source_.id(), FrameIndex{static_cast<std::uint32_t>(event.argument)});
+      Traffic::trace_processing(simulation, source_.id(), FrameIndex{static_cast<std::uint32_t>(event.argument)});
       cpu_->submit(stack_thread_, *this, source_.id().index, 0, event.argument, simulation.now());
       return;
     }
@@ -173,7 +180,7 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
     return;
   }
   if (event.argument != generation_) return;  // the clock has changed since
-  if (!output_->is_up()) [[unlikely]] {  // a host that is down produces nothing; its schedule goes on
+  if (!output_->is_up()) [[unlikely]] {       // a host that is down produces nothing; its schedule goes on
     go_on(simulation);
     return;
   }
@@ -181,9 +188,12 @@ void Talker::handle(sim::Simulation& simulation, const sim::Event& event) {
   const FrameIndex frame = traffic_->produce(stream_, payload, simulation);
   if (marks_) mark(traffic_->frame(frame));
   if (sim::TraceSink* const trace = simulation.trace()) [[unlikely]]
-    trace->record({simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
+    trace->record(
+        {simulation.now(), static_cast<std::uint32_t>(Occurrence::produced), source_.id(), frame.value, stream_.value});
   if (!transmits_at_once_)
-    simulation.schedule(source_, shares_latency_ ? transmit_->pass_strictly(simulation.now()) : transmit_->pass(simulation.now()), sim::Phase::arrival, source_.id(), transmit_now, frame.value);
+    simulation.schedule(
+        source_, shares_latency_ ? transmit_->pass_strictly(simulation.now()) : transmit_->pass(simulation.now()),
+        sim::Phase::arrival, source_.id(), transmit_now, frame.value);
   go_on(simulation);
   if (transmits_at_once_) hand_over(simulation, frame);
 }

@@ -1,6 +1,7 @@
-// Asynchronous traffic shaping at the talker: what an end station sends gets its eligibility time where it comes to the network interface.
-// Each stream has a scheduler of its own, alone in its group (IEEE 802.1Q clause 8.6.5.6: a talker's stream comes by no reception port
-// that it would share with others), and no maximum residence time: its own host has nobody else to be protected from.
+// Asynchronous traffic shaping at the talker: what an end station sends gets its eligibility time where it comes to the
+// network interface. Each stream has a scheduler of its own, alone in its group (IEEE 802.1Q clause 8.6.5.6: a talker's
+// stream comes by no reception port that it would share with others), and no maximum residence time: its own host has
+// nobody else to be protected from.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +20,17 @@ class TalkerAts {
 
   /// `burst` as in AtsSchedulerConfig; `counts_overhead`: preamble and inter-packet gap count.
   void add(StreamIndex stream, sim::DataRate rate, Octets burst, bool counts_overhead) {
-    const auto at = std::lower_bound(streams_.begin(), streams_.end(), stream, [](const Entry& entry, StreamIndex s) { return entry.stream < s; });
+    const auto at = std::lower_bound(streams_.begin(), streams_.end(), stream,
+                                     [](const Entry& entry, StreamIndex s) { return entry.stream < s; });
     TAKT_CHECK(at == streams_.end() || at->stream != stream, "a stream has one scheduler at its talker");
     streams_.insert(at, {stream, counts_overhead, AtsScheduler(rate, std::uint64_t{8} * burst.count), {}});
   }
 
-  /// Gives a frame of a stream that is shaped here its eligibility time. Frames have a class by their priority as before.
+  /// Gives a frame of a stream that is shaped here its eligibility time. Frames have a class by their priority as
+  /// before.
   void shape(Frame& frame, sim::LocalTime now) {
-    const auto at = std::lower_bound(streams_.begin(), streams_.end(), frame.stream, [](const Entry& entry, StreamIndex s) { return entry.stream < s; });
+    const auto at = std::lower_bound(streams_.begin(), streams_.end(), frame.stream,
+                                     [](const Entry& entry, StreamIndex s) { return entry.stream < s; });
     if (at == streams_.end() || at->stream != frame.stream) return;
     const Octets length = at->counts_overhead ? wire_length(Octets{frame.length}) : Octets{frame.length};
     const std::optional<sim::LocalTime> eligible = at->scheduler.process(length, now, at->group);

@@ -23,7 +23,8 @@ struct ExponentialSchedule {
   sim::Duration offset;
   sim::Duration mean;
 };
-/// Gaps of any distribution; the first frame comes one gap after the offset. Talkers are many and small, so the distribution stands apart.
+/// Gaps of any distribution; the first frame comes one gap after the offset. Talkers are many and small, so the
+/// distribution stands apart.
 struct RandomGapSchedule {
   sim::Duration offset;
   std::shared_ptr<const sim::Distribution> gap;
@@ -43,6 +44,7 @@ struct TraceSchedule {
   };
   std::vector<Entry> entries;
 };
-using TalkerSchedule = std::variant<PeriodicSchedule, ExponentialSchedule, BurstSchedule, TraceSchedule, RandomGapSchedule>;
+using TalkerSchedule =
+    std::variant<PeriodicSchedule, ExponentialSchedule, BurstSchedule, TraceSchedule, RandomGapSchedule>;
 
 }  // namespace takt::models

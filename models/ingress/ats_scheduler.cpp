@@ -7,12 +7,15 @@ namespace takt::models {
 
 AtsScheduler::AtsScheduler(sim::DataRate committed_information_rate, std::uint64_t committed_burst_size_bits,
                            sim::LocalTime start)
-    : last_(start), most_full_(static_cast<std::uint32_t>(std::min(committed_burst_size_bits / 8, most_full_octets))), rate_(static_cast<std::int64_t>(committed_information_rate.bits_per_second)) {
+    : last_(start),
+      most_full_(static_cast<std::uint32_t>(std::min(committed_burst_size_bits / 8, most_full_octets))),
+      rate_(static_cast<std::int64_t>(committed_information_rate.bits_per_second)) {
   TAKT_CHECK(committed_information_rate.bits_per_second >= 1, "an ATS scheduler has a rate");
   TAKT_CHECK(committed_information_rate.bits_per_second <= 1'000'000'000'000, "an ATS scheduler has at most 1 Tb/s");
   TAKT_CHECK(committed_burst_size_bits <= std::uint64_t{1} << 56, "a committed burst size is at most 2^56 bits");
   empty_to_full_ = units_in_a_bit * static_cast<FineTime>(committed_burst_size_bits);
-  octet_ps_ = static_cast<std::int64_t>((8'000'000'000'000 + committed_information_rate.bits_per_second - 1) / committed_information_rate.bits_per_second);
+  octet_ps_ = static_cast<std::int64_t>((8'000'000'000'000 + committed_information_rate.bits_per_second - 1) /
+                                        committed_information_rate.bits_per_second);
 }
 
 bool AtsScheduler::passes_at_once(sim::Octets length, sim::LocalTime arrival, AtsGroup& group) {

@@ -3,8 +3,13 @@
 namespace takt::models {
 
 FlowMeter::FlowMeter(const FlowMeterConfig& config)
-    : committed_burst_(tokens(config.committed_burst_size)), excess_burst_(tokens(config.excess_burst_size)), committed_tokens_(committed_burst_), excess_tokens_(excess_burst_),
-      is_simple_(config.color_mode == ColorMode::color_blind && config.excess_burst_size.count == 0 && !config.mark_all_frames_red_enable), config_(config) {
+    : committed_burst_(tokens(config.committed_burst_size)),
+      excess_burst_(tokens(config.excess_burst_size)),
+      committed_tokens_(committed_burst_),
+      excess_tokens_(excess_burst_),
+      is_simple_(config.color_mode == ColorMode::color_blind && config.excess_burst_size.count == 0 &&
+                 !config.mark_all_frames_red_enable),
+      config_(config) {
   constexpr std::uint64_t greatest = 1'000'000'000'000;  // keeps rate * 2^63 ps below 2^127
   TAKT_CHECK(config.committed_information_rate.bits_per_second <= greatest, "a meter's CIR is at most 1 Tb/s");
   TAKT_CHECK(config.excess_information_rate.bits_per_second <= greatest, "a meter's EIR is at most 1 Tb/s");
@@ -28,7 +33,7 @@ bool FlowMeter::finds_enough(sim::Octets length, sim::LocalTime arrival) {
   return true;
 }
 
-FlowMeter::Verdict FlowMeter::meter_exactly(sim::Octets length, bool drop_eligible, sim::LocalTime arrival) {
+FlowMeter::Verdict FlowMeter::meter_slow(sim::Octets length, bool drop_eligible, sim::LocalTime arrival) {
   fill(std::max(arrival - last_, sim::Duration()));
   last_ = arrival;
   filling_ps_ = unknown;
@@ -47,7 +52,8 @@ void FlowMeter::fill(sim::Duration elapsed) {
   const Tokens overflow = std::max(Tokens{0}, committed_tokens_ - committed_burst_);
   committed_tokens_ -= overflow;
   // Each summand is below 2^104, so the sum is exact.
-  excess_tokens_ = std::min(excess_burst_, excess_tokens_ + brought_by(config_.excess_information_rate, elapsed) + (config_.coupling_flag ? overflow : Tokens{0}));
+  excess_tokens_ = std::min(excess_burst_, excess_tokens_ + brought_by(config_.excess_information_rate, elapsed) +
+                                               (config_.coupling_flag ? overflow : Tokens{0}));
 }
 
 FrameColor FlowMeter::color(Tokens needed, bool arrived_green) {

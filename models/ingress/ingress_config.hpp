@@ -1,5 +1,5 @@
-// What a bridge does to frames between the medium and its filtering database, as management sets it: stream identification, FRER,
-// per-stream filtering and policing, ATS. Plain data; IngressPipeline is what lives.
+// What a bridge does to frames between the medium and its filtering database, as management sets it: stream
+// identification, FRER, per-stream filtering and policing, ATS. Plain data; IngressPipeline is what lives.
 #pragma once
 
 #include <array>
@@ -32,7 +32,7 @@ struct AddressIdentification {
 struct StreamIdentityEntry {
   StreamHandle stream;
   std::variant<AddressIdentification, SourceMacAndVlanIdentification, MaskAndMatchIdentification> function;
-  std::optional<std::uint16_t> member = {};   ///< its frames are those of this member of the stream's recovery
+  std::optional<std::uint16_t> member = {};  ///< its frames are those of this member of the stream's recovery
   bool operator==(const StreamIdentityEntry&) const = default;
 };
 
@@ -45,7 +45,7 @@ struct StreamGateConfig {
   sim::Duration admin_cycle_time;
   sim::Duration admin_cycle_time_extension;
   sim::LocalTime admin_base_time;
-  bool is_running = false;   ///< set before the start: a list whose base time lies in the past is in force then
+  bool is_running = false;  ///< set before the start: a list whose base time lies in the past is in force then
   bool closed_due_to_invalid_rx_enable = false;       ///< a frame that comes while it is closed closes it for good
   bool closed_due_to_octets_exceeded_enable = false;  ///< so does one beyond the octets of an interval
   bool operator==(const StreamGateConfig&) const = default;
@@ -59,10 +59,10 @@ struct NamedFlowMeterConfig {
 
 struct AtsSchedulerConfig {
   std::string name;
-  sim::DataRate committed_information_rate;        ///< 1 b/s to 1 Tb/s
-  Octets committed_burst_size{0};                  ///< at least the longest frame, counted as `media_overhead` says
-  bool media_overhead = true;                      ///< preamble and inter-packet gap count too (8.6.11.3.11)
-  AtsGroupIndex group;                             ///< none: that of reception port and upstream traffic class
+  sim::DataRate committed_information_rate;  ///< 1 b/s to 1 Tb/s
+  Octets committed_burst_size{0};            ///< at least the longest frame, counted as `media_overhead` says
+  bool media_overhead = true;                ///< preamble and inter-packet gap count too (8.6.11.3.11)
+  AtsGroupIndex group;                       ///< none: that of reception port and upstream traffic class
   bool operator==(const AtsSchedulerConfig&) const = default;
 };
 

@@ -18,17 +18,25 @@ IngressPipeline::IngressPipeline(Traffic& traffic, const IngressConfig& config, 
   for (const StreamFilterConfig& filter : config.stream_filters) filters_.add(filter);
   gates_.reserve(config.stream_gates.size());
   for (const StreamGateConfig& gate : config.stream_gates) gates_.emplace_back(gate);
-  for (const NamedFlowMeterConfig& meter : config.flow_meters) meters_.push_back({meter, FlowMeter(meter.meter), {}, 0});
+  for (const NamedFlowMeterConfig& meter : config.flow_meters)
+    meters_.push_back({meter, FlowMeter(meter.meter), {}, 0});
   for (const AtsSchedulerConfig& scheduler : config.ats_schedulers)
-    schedulers_.push_back({scheduler,
-                           AtsScheduler(scheduler.committed_information_rate, std::uint64_t{8} * scheduler.committed_burst_size.count), 0, 0, {}});
+    schedulers_.push_back(
+        {scheduler,
+         AtsScheduler(scheduler.committed_information_rate, std::uint64_t{8} * scheduler.committed_burst_size.count),
+         0,
+         0,
+         {}});
   for (const AtsGroupConfig& group : config.ats_groups) groups_.push_back({group.maximum_residence_time, {}, 0});
   for (const IngressSplit& split : config.splits) splits_.push_back({split.stream, StreamSplit(split.split, where)});
-  for (const IngressRecovery& recovery : config.recoveries) recoveries_.push_back({recovery.stream, StreamRecovery(recovery.recovery, where)});
+  for (const IngressRecovery& recovery : config.recoveries)
+    recoveries_.push_back({recovery.stream, StreamRecovery(recovery.recovery, where)});
   for (std::uint32_t i = 0; i < config.stream_filters.size(); ++i) {
     const StreamFilterConfig& filter = config.stream_filters[i];
-    Instances of{Instances::Kind::other, &filters_[StreamFilterIndex{i}], filter.stream_gate.is_none() ? nullptr : &gates_[filter.stream_gate.value],
-                 filter.flow_meter.is_none() ? nullptr : &meters_[filter.flow_meter.value], filter.ats_scheduler.is_none() ? nullptr : &schedulers_[filter.ats_scheduler.value]};
+    Instances of{Instances::Kind::other, &filters_[StreamFilterIndex{i}],
+                 filter.stream_gate.is_none() ? nullptr : &gates_[filter.stream_gate.value],
+                 filter.flow_meter.is_none() ? nullptr : &meters_[filter.flow_meter.value],
+                 filter.ats_scheduler.is_none() ? nullptr : &schedulers_[filter.ats_scheduler.value]};
     if (of.gate == nullptr && of.scheduler == nullptr && of.meter != nullptr) of.kind = Instances::Kind::meter;
     if (of.gate == nullptr && of.meter == nullptr && of.scheduler != nullptr) of.kind = Instances::Kind::scheduler;
     instances_.push_back(of);
@@ -39,7 +47,8 @@ IngressPipeline::IngressPipeline(Traffic& traffic, const IngressConfig& config, 
 void IngressPipeline::lay_out_functions() {
   functions_.resize(config_->streams.size() + 1);
   for (std::size_t i = 0; i < functions_.size(); ++i) {
-    const StreamHandle handle = i < config_->streams.size() ? StreamHandle{static_cast<std::uint32_t>(i)} : StreamHandle{};
+    const StreamHandle handle =
+        i < config_->streams.size() ? StreamHandle{static_cast<std::uint32_t>(i)} : StreamHandle{};
     for (Priority priority = 0; priority < 8; ++priority) {
       std::uint32_t filter = 0;
       while (filter < filters_.size() && !filters_[StreamFilterIndex{filter}].matches(handle, priority)) ++filter;
@@ -58,14 +67,16 @@ void IngressPipeline::lay_out_functions() {
     if (functions_[i].recovery != none || functions_[i].split != none) continue;
     for (Priority priority = 0; priority < 8; ++priority) {
       const std::uint32_t filter = functions_[i].filter_of_priority[priority];
-      if (filter != none && instances_[filter].kind != Instances::Kind::other) alone_[i][priority] = &instances_[filter];
+      if (filter != none && instances_[filter].kind != Instances::Kind::other)
+        alone_[i][priority] = &instances_[filter];
     }
   }
 }
 
 inline AtsGroup* IngressPipeline::known_group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port) {
   if (!scheduler.config.group.is_none()) return &groups_[scheduler.config.group.value];
-  if (port >= ports_with_groups_) [[unlikely]] return nullptr;
+  if (port >= ports_with_groups_) [[unlikely]]
+    return nullptr;
   return &port_groups_[port * std::size_t{traffic_class_count} + config_->traffic_class_of_priority[frame.priority]];
 }
 
@@ -84,7 +95,9 @@ inline Octets IngressPipeline::length_for(const Scheduler& scheduler, const Fram
 }
 
 /// An R-TAG is part of what the VLAN tag carries.
-inline Octets IngressPipeline::msdu_of(const Frame& frame) { return Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0}); }
+inline Octets IngressPipeline::msdu_of(const Frame& frame) {
+  return Octets{frame.msdu} + (frame.r_tagged ? r_tag : Octets{0});
+}
 
 inline void IngressPipeline::mark_eligible(Frame& frame, sim::LocalTime arrival) {
   frame.eligible = arrival;
@@ -92,23 +105,26 @@ inline void IngressPipeline::mark_eligible(Frame& frame, sim::LocalTime arrival)
   frame.marked = true;
 }
 
-/// A frame of a filter with a meter or a scheduler alone, most of which find a full bucket. It calls nothing but what it ends with, so that this saves no registers.
+/// A frame of a filter with a meter or a scheduler alone, most of which find a full bucket. It calls nothing but what
+/// it ends with, so that this saves no registers.
 bool IngressPipeline::passes_as_it_is(Frame& frame, std::uint16_t port, sim::TrueTime on_wire) {
   const StreamTable::Found* const found = streams_.find_by_address(frame);
   if (found == nullptr || !clock_->is_ideal()) return false;
   const Instances* const instances = alone_[found->stream.value][frame.priority];
-  if (instances == nullptr || !instances->filter->surely_accepts(msdu_of(frame))) return false;
+  if (instances == nullptr || !instances->filter->accepts_fast(msdu_of(frame))) return false;
   AtsGroup* group = nullptr;
   if (instances->kind == Instances::Kind::meter) {
     const sim::LocalTime arrival = clock_->local_at(on_wire);
-    if (!instances->meter->meter.finds_full(Octets{frame.length}, arrival)) [[unlikely]] return finds_enough(*instances, frame, arrival, group);
+    if (!instances->meter->meter.finds_full(Octets{frame.length}, arrival)) [[unlikely]]
+      return finds_enough(*instances, frame, arrival, group);
     ++instances->meter->frames[static_cast<std::size_t>(FrameColor::green)];
   } else {
     const sim::LocalTime arrival = clock_->local_at(on_wire + forwarding_delay_);
     Scheduler& scheduler = *instances->scheduler;
     group = known_group_of(scheduler, frame, port);
     if (frame.references != 1 || group == nullptr) return false;
-    if (!scheduler.scheduler.passes_full(length_for(scheduler, frame), arrival, *group)) [[unlikely]] return finds_enough(*instances, frame, arrival, group);
+    if (!scheduler.scheduler.passes_full(length_for(scheduler, frame), arrival, *group)) [[unlikely]]
+      return finds_enough(*instances, frame, arrival, group);
     ++scheduler.passed;
     mark_eligible(frame, arrival);
   }
@@ -132,12 +148,13 @@ bool IngressPipeline::finds_enough(const Instances& instances, Frame& frame, sim
 }
 
 std::span<const FrameIndex> IngressPipeline::pass(sim::Simulation& simulation, Ingress ingress) {
-  if (!passes_as_it_is(traffic_->frame(ingress.frame), ingress.port, ingress.on_wire)) return pass_exactly(simulation, ingress);
+  if (!passes_as_it_is(traffic_->frame(ingress.frame), ingress.port, ingress.on_wire))
+    return pass_slow(simulation, ingress);
   out_ = ingress.frame;
   return {&out_, 1};
 }
 
-std::span<const FrameIndex> IngressPipeline::pass_exactly(sim::Simulation& simulation, Ingress ingress) {
+std::span<const FrameIndex> IngressPipeline::pass_slow(sim::Simulation& simulation, Ingress ingress) {
   FrameIndex frame = ingress.frame;
   const StreamTable::Found found = streams_.identify(traffic_->frame(frame));
   if (found.stream.is_none()) ++unidentified_frames_;
@@ -146,8 +163,8 @@ std::span<const FrameIndex> IngressPipeline::pass_exactly(sim::Simulation& simul
 
   if (functions.recovery != none && (is_member || traffic_->frame(frame).r_tagged)) {
     const std::size_t member = is_member ? found.member : StreamRecovery::no_member;
-    const std::optional<FrameIndex> passed =
-        recoveries_[functions.recovery].recovery.receive(*traffic_, frame, member, ingress.port, clock_->unstepped_at(ingress.on_wire));
+    const std::optional<FrameIndex> passed = recoveries_[functions.recovery].recovery.receive(
+        *traffic_, frame, member, ingress.port, clock_->unstepped_at(ingress.on_wire));
     if (!passed) {
       traffic_->drop(frame, DropReason::duplicate, where_, simulation);
       return {};
@@ -155,14 +172,18 @@ std::span<const FrameIndex> IngressPipeline::pass_exactly(sim::Simulation& simul
     frame = *passed;
   }
   if (!police(simulation, frame, ingress, functions)) return {};
-  // Members that are not recovered here pass; what has been made one again is copied anew, but not back to where it came from.
-  if (functions.split != none && (!is_member || functions.recovery != none)) return splits_[functions.split].split.split(*traffic_, frame, is_member ? ingress.port : StreamSplit::any_port);
+  // Members that are not recovered here pass; what has been made one again is copied anew, but not back to where it
+  // came from.
+  if (functions.split != none && (!is_member || functions.recovery != none))
+    return splits_[functions.split].split.split(*traffic_, frame, is_member ? ingress.port : StreamSplit::any_port);
   out_ = frame;
   return {&out_, 1};
 }
 
-/// Per-stream filtering, policing and shaping. False: the frame was discarded. `index` is the record that goes on otherwise.
-bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions) {
+/// Per-stream filtering, policing and shaping. False: the frame was discarded. `index` is the record that goes on
+/// otherwise.
+bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress,
+                             const Functions& functions) {
   const Frame& frame = traffic_->frame(index);
   const std::uint32_t number = functions.filter_of_priority[frame.priority];
   if (number == none) return true;
@@ -186,7 +207,8 @@ bool IngressPipeline::police(sim::Simulation& simulation, FrameIndex& index, con
   bool drop_eligible = frame.drop_eligible;
   if (instances.meter != nullptr) {
     Meter& meter = *instances.meter;
-    const FlowMeter::Verdict verdict = meter.meter.meter(Octets{frame.length}, drop_eligible, clock_->unstepped_at(ingress.on_wire));
+    const FlowMeter::Verdict verdict =
+        meter.meter.meter(Octets{frame.length}, drop_eligible, clock_->unstepped_at(ingress.on_wire));
     ++meter.frames[static_cast<std::size_t>(verdict.color)];
     if (!verdict.pass) {
       ++meter.discarded;
@@ -220,8 +242,10 @@ bool IngressPipeline::discard(sim::Simulation& simulation, FrameIndex frame, Dro
   return false;
 }
 
-std::optional<sim::LocalTime> IngressPipeline::shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival) {
-  const std::optional<sim::LocalTime> eligible = scheduler.scheduler.process(length_for(scheduler, frame), arrival, group_of(scheduler, frame, port));
+std::optional<sim::LocalTime> IngressPipeline::shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port,
+                                                     sim::LocalTime arrival) {
+  const std::optional<sim::LocalTime> eligible =
+      scheduler.scheduler.process(length_for(scheduler, frame), arrival, group_of(scheduler, frame, port));
   ++(eligible ? scheduler.passed : scheduler.discarded);
   if (eligible) scheduler.longest_hold = std::max(scheduler.longest_hold, *eligible - arrival);
   return eligible;

@@ -51,7 +51,7 @@ class IngressPipeline final : public IngressChain {
   /// `forwarding_delay` is the bridge's fixed one. All references outlive the pipeline.
   IngressPipeline(Traffic& traffic, const IngressConfig& config, const LocalClock& clock, sim::ComponentId where,
                   std::uint32_t first_group, sim::Duration forwarding_delay);
-  IngressPipeline(const IngressPipeline&) = delete;   // instances_ points into it
+  IngressPipeline(const IngressPipeline&) = delete;  // instances_ points into it
   IngressPipeline& operator=(const IngressPipeline&) = delete;
 
   std::span<const FrameIndex> pass(sim::Simulation& simulation, Ingress ingress) override;
@@ -60,14 +60,14 @@ class IngressPipeline final : public IngressChain {
   struct Meter {
     NamedFlowMeterConfig config;
     FlowMeter meter;
-    std::array<std::uint64_t, 3> frames{};   ///< by FrameColor
+    std::array<std::uint64_t, 3> frames{};  ///< by FrameColor
     std::uint64_t discarded = 0;
   };
   struct Scheduler {
     AtsSchedulerConfig config;
     AtsScheduler scheduler;
     std::uint64_t passed = 0;
-    std::uint64_t discarded = 0;             ///< would have stayed longer than the maximum residence time
+    std::uint64_t discarded = 0;  ///< would have stayed longer than the maximum residence time
     sim::Duration longest_hold;  ///< greatest eligibility time minus arrival, both with or without the forwarding delay
   };
   struct Split {
@@ -102,12 +102,12 @@ class IngressPipeline final : public IngressChain {
   struct Functions {
     std::uint32_t recovery = none;
     std::uint32_t split = none;
-    std::array<std::uint32_t, 8> filter_of_priority{};   ///< the first that matches
+    std::array<std::uint32_t, 8> filter_of_priority{};  ///< the first that matches
   };
 
   /// What a stream filter leads to; null where there is nothing.
   struct Instances {
-    enum class Kind : std::uint8_t { meter, scheduler, other };   ///< that alone, or something else
+    enum class Kind : std::uint8_t { meter, scheduler, other };  ///< that alone, or something else
     Kind kind = Kind::other;
     StreamFilter* filter = nullptr;
     StreamGate* gate = nullptr;
@@ -115,22 +115,27 @@ class IngressPipeline final : public IngressChain {
     Scheduler* scheduler = nullptr;
   };
 
-  /// Of the frames of a stream that is neither recovered nor split, by priority: the filter that leads to a meter or a scheduler alone; null: another one, or none.
+  /// Of the frames of a stream that is neither recovered nor split, by priority: the filter that leads to a meter or a
+  /// scheduler alone; null: another one, or none.
   using Alone = std::array<const Instances*, 8>;
 
-  [[gnu::noinline]] static bool finds_enough(const Instances& instances, Frame& frame, sim::LocalTime arrival, AtsGroup* group);
+  [[gnu::noinline]] static bool finds_enough(const Instances& instances, Frame& frame, sim::LocalTime arrival,
+                                             AtsGroup* group);
   static void mark_eligible(Frame& frame, sim::LocalTime arrival);
-  [[gnu::noinline]] std::span<const FrameIndex> pass_exactly(sim::Simulation& simulation, Ingress ingress);
+  [[gnu::noinline]] std::span<const FrameIndex> pass_slow(sim::Simulation& simulation, Ingress ingress);
   bool police(sim::Simulation& simulation, FrameIndex& index, const Ingress& ingress, const Functions& functions);
   bool discard(sim::Simulation& simulation, FrameIndex frame, DropReason reason);
-  std::optional<sim::LocalTime> shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port, sim::LocalTime arrival);
+  std::optional<sim::LocalTime> shape(Scheduler& scheduler, const Frame& frame, std::uint16_t port,
+                                      sim::LocalTime arrival);
   AtsGroup& group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port);
   /// Null if it has not been asked for yet.
   AtsGroup* known_group_of(const Scheduler& scheduler, const Frame& frame, std::uint16_t port);
   void make_groups_of(std::uint16_t port);
   static Octets length_for(const Scheduler& scheduler, const Frame& frame);
   static Octets msdu_of(const Frame& frame);
-  const Functions& functions_of(StreamHandle stream) const { return stream.is_none() ? functions_.back() : functions_[stream.value]; }
+  const Functions& functions_of(StreamHandle stream) const {
+    return stream.is_none() ? functions_.back() : functions_[stream.value];
+  }
   void lay_out_functions();
 
   Traffic* traffic_;
@@ -139,15 +144,15 @@ class IngressPipeline final : public IngressChain {
   sim::ComponentId where_;
   sim::Duration forwarding_delay_;
   StreamTable streams_;
-  std::vector<Functions> functions_;        // by stream handle; the last one is that of frames of no stream
+  std::vector<Functions> functions_;  // by stream handle; the last one is that of frames of no stream
   StreamFilterTable filters_;
   std::vector<StreamGate> gates_;
   std::vector<Meter> meters_;
   std::vector<Scheduler> schedulers_;
   std::vector<AtsGroup> groups_;
-  std::vector<Instances> instances_;        // by filter
-  std::vector<Alone> alone_;                // by stream handle
-  std::vector<AtsGroup> port_groups_;       // by reception port and traffic class
+  std::vector<Instances> instances_;   // by filter
+  std::vector<Alone> alone_;           // by stream handle
+  std::vector<AtsGroup> port_groups_;  // by reception port and traffic class
   std::uint32_t ports_with_groups_ = 0;
   std::vector<Split> splits_;
   std::vector<Recovery> recoveries_;

@@ -1,5 +1,5 @@
-// The stream filter instance table of per-stream filtering and policing (IEEE 802.1Q clause 8.6.5.3, formerly Qci): which gate,
-// meter and scheduler does a frame meet, and is it too long?
+// The stream filter instance table of per-stream filtering and policing (IEEE 802.1Q clause 8.6.5.3, formerly Qci):
+// which gate, meter and scheduler does a frame meet, and is it too long?
 #pragma once
 
 #include <cstdint>
@@ -22,21 +22,21 @@ struct StreamFilterConfig {
   std::optional<Priority> priority;           ///< nothing: the wildcard
   Octets maximum_sdu_size{0};                 ///< octets of the MSDU after the EtherType; 0: any
   bool stream_blocked_due_to_oversize_frame_enable = false;
-  StreamGateIndex stream_gate;                ///< mandatory in the standard; none: a gate that is always open
-  FlowMeterIndex flow_meter;                  ///< or none
-  AtsSchedulerIndex ats_scheduler;            ///< or none
+  StreamGateIndex stream_gate;      ///< mandatory in the standard; none: a gate that is always open
+  FlowMeterIndex flow_meter;        ///< or none
+  AtsSchedulerIndex ats_scheduler;  ///< or none
   bool operator==(const StreamFilterConfig&) const = default;
 };
 
-/// matching = passing_sdu + not_passing_sdu; passing_sdu = passing + not_passing; red frames are among the passing (they have
-/// passed the gate). A frame of a blocked stream counts as not passing the SDU filter.
+/// matching = passing_sdu + not_passing_sdu; passing_sdu = passing + not_passing; red frames are among the passing
+/// (they have passed the gate). A frame of a blocked stream counts as not passing the SDU filter.
 struct StreamFilterCounters {
   std::uint64_t matching_frames = 0;
-  std::uint64_t passing_frames = 0;       ///< passed the stream gate
-  std::uint64_t not_passing_frames = 0;   ///< discarded by the stream gate
+  std::uint64_t passing_frames = 0;      ///< passed the stream gate
+  std::uint64_t not_passing_frames = 0;  ///< discarded by the stream gate
   std::uint64_t passing_sdu = 0;
   std::uint64_t not_passing_sdu = 0;
-  std::uint64_t red_frames = 0;           ///< discarded by the flow meter
+  std::uint64_t red_frames = 0;  ///< discarded by the flow meter
   bool operator==(const StreamFilterCounters&) const = default;
 };
 
@@ -46,11 +46,12 @@ class StreamFilter {
   explicit StreamFilter(const StreamFilterConfig& config) : config_(config) { find_limit(); }
 
   bool matches(StreamHandle handle, Priority priority) const {
-    return (!config_.stream_handle || *config_.stream_handle == handle) && (!config_.priority || *config_.priority == priority);
+    return (!config_.stream_handle || *config_.stream_handle == handle) &&
+           (!config_.priority || *config_.priority == priority);
   }
 
-  /// Counts a matching frame with an MSDU of that many octets. False: discard it, because it is too long or because an earlier
-  /// one was and the stream is blocked since.
+  /// Counts a matching frame with an MSDU of that many octets. False: discard it, because it is too long or because an
+  /// earlier one was and the stream is blocked since.
   bool accept(Octets msdu) {
     ++counters_.matching_frames;
     const bool oversize = config_.maximum_sdu_size.count != 0 && msdu > config_.maximum_sdu_size;
@@ -63,7 +64,7 @@ class StreamFilter {
     return accepted;
   }
   /// accept() would say true.
-  bool surely_accepts(Octets msdu) const { return msdu.count < accepted_below_; }
+  bool accepts_fast(Octets msdu) const { return msdu.count < accepted_below_; }
   /// accept() has said true, and so has the stream gate.
   void count_passed() { ++passed_; }
   /// What the stream gate said of an accepted frame.
@@ -100,8 +101,8 @@ class StreamFilter {
   StreamFilterCounters counters_;
 };
 
-/// The filters of a node in the order of their instance identifiers; the first that matches is the frame's. A frame that none
-/// matches goes on as if there were no policing.
+/// The filters of a node in the order of their instance identifiers; the first that matches is the frame's. A frame
+/// that none matches goes on as if there were no policing.
 class StreamFilterTable {
  public:
   StreamFilterIndex add(const StreamFilterConfig& config) {

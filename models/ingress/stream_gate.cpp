@@ -2,12 +2,14 @@
 
 namespace takt::models {
 
-StreamGate::StreamGate(const StreamGateConfig& config) : config_(config), schedule_(config.admin_gate_open, config.admin_ipv) {
-  if (!config.admin_control_list.empty()) request_change(first_request(sim::LocalTime(), config.admin_base_time, config.is_running), config);
+StreamGate::StreamGate(const StreamGateConfig& config)
+    : config_(config), schedule_(config.admin_gate_open, config.admin_ipv) {
+  if (!config.admin_control_list.empty())
+    request_change(first_request(sim::LocalTime(), config.admin_base_time, config.is_running), config);
 }
 
 /// Where it is closed, or octets are counted.
-StreamGate::Verdict StreamGate::admit_exactly(Octets msdu, sim::LocalTime now) {
+StreamGate::Verdict StreamGate::admit_slow(Octets msdu, sim::LocalTime now) {
   const StreamGateState state = schedule_.state(now);
   if (is_latched() || !state.open) {
     ++counters_.closed;
@@ -26,7 +28,8 @@ StreamGate::Verdict StreamGate::admit_exactly(Octets msdu, sim::LocalTime now) {
 ConfigChange StreamGate::request_change(sim::LocalTime now, const StreamGateConfig& config) {
   TAKT_CHECK(!config.admin_control_list.empty(), "a change of a stream gate brings a list");
   lists_.push_back(std::make_unique<const StreamGateList>(config.admin_control_list, config.admin_cycle_time));
-  return schedule_.request_change(now, {lists_.back().get(), config.admin_base_time, config.admin_cycle_time_extension});
+  return schedule_.request_change(now,
+                                  {lists_.back().get(), config.admin_base_time, config.admin_cycle_time_extension});
 }
 
 }  // namespace takt::models

@@ -1,5 +1,5 @@
-// A stream gate instance (IEEE 802.1Q clause 8.6.5.4): its schedule, the octets of the present interval, and what closes it for
-// good.
+// A stream gate instance (IEEE 802.1Q clause 8.6.5.4): its schedule, the octets of the present interval, and what
+// closes it for good.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class StreamGate {
   enum class Outcome : std::uint8_t { passed, closed, octets_exceeded };
   struct Verdict {
     Outcome outcome = Outcome::passed;
-    std::optional<Priority> ipv;   ///< if passed: the internal priority value, if the gate gives one
+    std::optional<Priority> ipv;  ///< if passed: the internal priority value, if the gate gives one
     bool operator==(const Verdict&) const = default;
   };
   struct Counters {
@@ -26,13 +26,16 @@ class StreamGate {
     bool operator==(const Counters&) const = default;
   };
 
-  /// The list of the configuration is requested at time 0 of the node's clock; one that is running, before its base time.
+  /// The list of the configuration is requested at time 0 of the node's clock; one that is running, before its base
+  /// time.
   explicit StreamGate(const StreamGateConfig& config);
 
   /// Decides about an MSDU of that many octets whose last bit came at `now`, which does not decrease from call to call.
   Verdict admit(Octets msdu, sim::LocalTime now) {
     const StreamGateEntry* const entry = schedule_.entry(now);
-    if (is_latched() || (entry != nullptr ? !entry->open || entry->interval_octet_max : !schedule_.admin_gate_open())) [[unlikely]] return admit_exactly(msdu, now);
+    if (is_latched() || (entry != nullptr ? !entry->open || entry->interval_octet_max : !schedule_.admin_gate_open()))
+        [[unlikely]]
+      return admit_slow(msdu, now);
     ++counters_.passed;
     return {Outcome::passed, entry != nullptr ? entry->ipv : schedule_.admin_ipv()};
   }
@@ -52,7 +55,7 @@ class StreamGate {
 
  private:
   bool is_latched() const { return closed_due_to_invalid_rx_ || closed_due_to_octets_exceeded_; }
-  Verdict admit_exactly(Octets msdu, sim::LocalTime now);
+  Verdict admit_slow(Octets msdu, sim::LocalTime now);
 
   StreamGateConfig config_;
   std::vector<std::unique_ptr<const StreamGateList>> lists_;  // of all requests: the schedule refers to them

@@ -1,5 +1,5 @@
-// A stream gate of per-stream filtering and policing (IEEE 802.1Q clauses 8.6.5.4 and 8.6.10): open or closed, with an internal
-// priority value, on the same cyclic time as a transmission gate.
+// A stream gate of per-stream filtering and policing (IEEE 802.1Q clauses 8.6.5.4 and 8.6.10): open or closed, with an
+// internal priority value, on the same cyclic time as a transmission gate.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,17 @@ namespace takt::models {
 /// One operation SetGateAndIPV (Table 8-4).
 struct StreamGateEntry {
   bool open = true;
-  std::optional<Priority> ipv;                     ///< none: the frame's own priority decides the queue
-  sim::Duration interval;                          ///< zero counts as one tick of 1 ns
-  std::optional<std::uint32_t> interval_octet_max; ///< MSDU octets that may pass in this interval; none: any number
+  std::optional<Priority> ipv;                      ///< none: the frame's own priority decides the queue
+  sim::Duration interval;                           ///< zero counts as one tick of 1 ns
+  std::optional<std::uint32_t> interval_octet_max;  ///< MSDU octets that may pass in this interval; none: any number
   bool operator==(const StreamGateEntry&) const = default;
 };
 
 /// The entries of a stream gate with their cycle time. Immutable; gates share it.
 class StreamGateList {
  public:
-  /// The list has 1 to 65536 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the scenario.
+  /// The list has 1 to 65536 entries, and intervals and cycle time are in range (see CyclicIntervals): checked by the
+  /// scenario.
   StreamGateList(std::span<const StreamGateEntry> entries, sim::Duration cycle_time);
 
   const CyclicIntervals& intervals() const { return intervals_; }
@@ -42,13 +43,14 @@ struct StreamGateState {
   bool open = true;
   std::optional<Priority> ipv;
   std::optional<std::uint32_t> interval_octet_max;
-  /// When the operation in force was executed: names this run of this entry and no other. An entry that stays because the list
-  /// is shorter than its cycle, or because its cycle is stretched, stays the same run.
+  /// When the operation in force was executed: names this run of this entry and no other. An entry that stays because
+  /// the list is shorter than its cycle, or because its cycle is stretched, stays the same run.
   sim::LocalTime interval_start;
   bool operator==(const StreamGateState&) const = default;
 };
 
-/// Counts the octets of the present interval against interval_octet_max (8.6.5.4). An operation fills the account again.
+/// Counts the octets of the present interval against interval_octet_max (8.6.5.4). An operation fills the account
+/// again.
 class IntervalOctets {
  public:
   /// True if an MSDU of that many octets still fits; it is taken off then, and nothing is otherwise.
@@ -92,8 +94,14 @@ class StreamGateSchedule {
   /// The first instant after `now` at which an operation is executed or another list begins; never() if none is.
   sim::LocalTime next_operation(sim::LocalTime now);
 
-  const StreamGateList* oper_control_list(sim::LocalTime now) { here(now); return schedule_.oper_control_list(); }
-  bool config_pending(sim::LocalTime now) { here(now); return schedule_.config_pending(); }
+  const StreamGateList* oper_control_list(sim::LocalTime now) {
+    here(now);
+    return schedule_.oper_control_list();
+  }
+  bool config_pending(sim::LocalTime now) {
+    here(now);
+    return schedule_.config_pending();
+  }
   sim::LocalTime config_change_time() const { return schedule_.config_change_time(); }
   std::uint64_t config_change_error() const { return schedule_.config_change_error(); }
 
@@ -101,7 +109,8 @@ class StreamGateSchedule {
   using Schedule = CyclicSchedule<StreamGateList>;
 
   const Schedule::Place& here(sim::LocalTime now) {
-    if (!schedule_.is_at(now)) [[unlikely]] schedule_.move_to(now);
+    if (!schedule_.is_at(now)) [[unlikely]]
+      schedule_.move_to(now);
     return schedule_.here();
   }
 

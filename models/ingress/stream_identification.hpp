@@ -18,7 +18,7 @@ using StreamHandle = Index<struct StreamHandleTag>;  ///< what stream identifica
 struct StreamHeader {
   MacAddress destination;
   MacAddress source;
-  VlanId vlan = 0;            ///< of the tag; 0 if untagged or priority-tagged
+  VlanId vlan = 0;  ///< of the tag; 0 if untagged or priority-tagged
   bool tagged = false;
   Priority priority = 0;
   std::span<const std::byte> msdu;  ///< from the EtherType on, VLAN tag removed; the first octets are enough
@@ -48,8 +48,8 @@ struct SourceMacAndVlanIdentification {
   bool operator==(const SourceMacAndVlanIdentification&) const = default;
 };
 
-/// Type 5, mask-and-match (802.1CBdb): a frame matches where the bits under the mask equal those of `match`. A mask of 0 matches
-/// everything. A frame with fewer MSDU octets than the mask does not match.
+/// Type 5, mask-and-match (802.1CBdb): a frame matches where the bits under the mask equal those of `match`. A mask of
+/// 0 matches everything. A frame with fewer MSDU octets than the mask does not match.
 struct MaskAndMatchIdentification {
   MacAddress destination_mask;
   MacAddress destination_match;
@@ -60,7 +60,8 @@ struct MaskAndMatchIdentification {
   bool operator==(const MaskAndMatchIdentification&) const = default;
 };
 
-using IdentificationFunction = std::variant<NullIdentification, SourceMacAndVlanIdentification, MaskAndMatchIdentification>;
+using IdentificationFunction =
+    std::variant<NullIdentification, SourceMacAndVlanIdentification, MaskAndMatchIdentification>;
 
 /// Whether one function identifies the frame.
 bool identifies(const IdentificationFunction& function, const StreamHeader& header);

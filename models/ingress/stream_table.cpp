@@ -10,7 +10,12 @@ StreamTable::StreamTable(std::span<const StreamIdentityEntry> entries, std::uint
     const StreamIdentityEntry& entry = entries[i];
     TAKT_CHECK(!entry.stream.is_none(), "an entry of the stream identity table names a stream");
     if (const auto* const address = std::get_if<AddressIdentification>(&entry.function))
-      by_address_.push_back({address->destination, address->tagged, address->vlan, {entry.stream, entry.member.value_or(no_member)}, i, end});
+      by_address_.push_back({address->destination,
+                             address->tagged,
+                             address->vlan,
+                             {entry.stream, entry.member.value_or(no_member)},
+                             i,
+                             end});
     else
       others_.push_back(i);
   }
@@ -23,7 +28,7 @@ StreamTable::StreamTable(std::span<const StreamIdentityEntry> entries, std::uint
   }
 }
 
-StreamTable::Found StreamTable::identify_among_others(const Frame& frame, std::uint32_t by_address) const {
+StreamTable::Found StreamTable::search_bucket(const Frame& frame, std::uint32_t by_address) const {
   const std::uint32_t limit = by_address == end ? end : by_address_[by_address].order;
   StreamHeader header;
   header.destination = mac_address_of(frame.destination, first_group_);

@@ -1,4 +1,4 @@
-// How a part that waits is woken by who has something for it.
+// Wakes a waiting part when another part has posted something for it.
 #pragma once
 
 #include <atomic>
@@ -9,11 +9,13 @@ namespace takt::models {
 /// One thread sleeps by it, others ring. Who rings while nobody sleeps reads one word.
 class alignas(64) Bell {
  public:
-  /// After what the sleeper waits for has been stored (sequentially consistent, as all here: whoever rings sees the sleeper, or the sleeper what was stored).
+  /// After what the sleeper waits for has been stored (sequentially consistent, as all here: the ringer sees the
+  /// sleeper, or the sleeper sees what was stored).
   void ring() {
     if (sleeps_.load()) wake();
   }
-  /// Sleeps until somebody rings, unless there is something already: `is_ready` reads what ringers store before they ring.
+  /// Sleeps until somebody rings, unless there is something already: `is_ready` reads what ringers store before they
+  /// ring.
   template <class IsReady>
   void sleep_unless(IsReady&& is_ready) {
     const std::uint32_t rung = rung_.load();

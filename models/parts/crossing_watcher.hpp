@@ -8,7 +8,8 @@
 
 namespace takt::models {
 
-/// Told by one part, on its thread. Frames of one direction come in the order in which they left, each once, so who counts them at both ends knows which is which.
+/// Called by one part, on its thread. Frames of one direction arrive in the order in which they left, each once, so
+/// counting at both ends identifies them.
 class CrossingWatcher {
  public:
   virtual ~CrossingWatcher() = default;

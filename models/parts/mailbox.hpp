@@ -13,17 +13,18 @@
 
 namespace takt::models {
 
-/// A frame that crosses from part to part: its event at the receiver, its record, and where its octets are, if it has any.
+/// A frame that crosses from part to part: its event at the receiver, its record, and where its octets are, if it has
+/// any.
 struct Parcel {
   sim::Event arrival;
   Frame frame;
-  std::size_t octets_from = 0;      ///< in Consignment::octets
+  std::size_t octets_from = 0;  ///< in Consignment::octets
   std::uint16_t octets = 0;
 };
 
 struct Consignment {
   std::vector<Parcel> parcels;
-  std::vector<std::byte> octets;    ///< of payloads, one behind another
+  std::vector<std::byte> octets;  ///< of payloads, one behind another
   bool empty() const { return parcels.empty(); }
   void clear() {
     parcels.clear();
@@ -34,7 +35,8 @@ struct Consignment {
 /// One direction between two parts: one thread posts, another takes.
 class alignas(64) Mailbox {
  public:
-  /// Posts what is in `consignment`, which is empty then, and promises: nothing that is posted later comes before `promise`.
+  /// Posts what is in `consignment`, which is empty then, and promises: nothing that is posted later comes before
+  /// `promise`.
   void post(Consignment& consignment, sim::TrueTime promise) {
     if (!consignment.empty()) {
       const std::lock_guard lock(mutex_);
@@ -45,7 +47,7 @@ class alignas(64) Mailbox {
       consignment.clear();
       has_mail_.store(true, std::memory_order_relaxed);
     }
-    promise_.store(promise.ps());   // sequentially consistent: see Bell
+    promise_.store(promise.ps());  // sequentially consistent: see Bell
   }
 
   /// Until when nothing comes but what take() gives when it is called afterwards.

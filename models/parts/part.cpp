@@ -5,8 +5,8 @@
 namespace takt::models {
 namespace {
 
-/// How often a part looks for mail before it sleeps: some 100 us. On a busy machine who sleeps is let run sooner than who looks all the time. Where there are more parts than processors,
-/// what it waits for may wait for its processor.
+/// How often a part looks for mail before it sleeps: some 100 us. A busy machine schedules a sleeper sooner than a
+/// spinner. Where there are more parts than processors, what it waits for may wait for its processor.
 constexpr int looks_before_sleeping = 2000;
 constexpr int looks_in_a_crowd = 10;
 constexpr std::int64_t steps_a_promise = 4;
@@ -39,13 +39,15 @@ sim::TrueTime Part::safe_until() const {
   return safe;
 }
 
-void Part::take_mail() {
+void Part::receive_posted() {
   for (const Neighbour& neighbour : neighbours_) {
     if (!neighbour.from->take(incoming_)) continue;
     for (const Parcel& parcel : incoming_.parcels) {
-      const FrameIndex frame = network_->traffic().take_over(parcel.frame, std::span(incoming_.octets).subspan(parcel.octets_from, parcel.octets));
+      const FrameIndex frame = network_->traffic().take_over(
+          parcel.frame, std::span(incoming_.octets).subspan(parcel.octets_from, parcel.octets));
       if (watcher_ != nullptr) watcher_->came(neighbour.part, parcel.arrival, frame);
-      simulation_->receive(parcel.arrival.time, parcel.arrival.order, parcel.arrival.serial_kind, parcel.arrival.argument | frame.value);
+      simulation_->receive(parcel.arrival.time, parcel.arrival.order, parcel.arrival.serial_kind,
+                           parcel.arrival.argument | frame.value);
     }
     incoming_.clear();
   }
@@ -65,7 +67,8 @@ void Part::post(sim::TrueTime safe) {
   }
 }
 
-/// In short steps: who promised only when all that is safe is done would let the other part wait for just as long, and be waited for afterwards in turn.
+/// In short steps: a promise given only after all safe work would keep the other part waiting for that long, and this
+/// part afterwards in turn.
 void Part::advance(sim::TrueTime until, const std::atomic<bool>& stop) {
   const sim::Duration tick = sim::Duration::from_ps(1);
   const sim::Duration step = std::max(tick, shortest_promise_ / steps_a_promise);
@@ -73,7 +76,7 @@ void Part::advance(sim::TrueTime until, const std::atomic<bool>& stop) {
   const int patience = is_crowded_ ? looks_in_a_crowd : looks_before_sleeping;
   int looks = 0;
   for (bool is_first = true;; is_first = false) {
-    const sim::TrueTime safe = safe_until();   // before the mail, which then has all that comes earlier
+    const sim::TrueTime safe = safe_until();  // before the mail, which then has all that comes earlier
     const sim::TrueTime last = std::min(until, safe - tick);
     if (last <= done && !is_first) {
       if (stop.load()) return;
@@ -82,7 +85,7 @@ void Part::advance(sim::TrueTime until, const std::atomic<bool>& stop) {
       continue;
     }
     looks = 0;
-    take_mail();
+    receive_posted();
     done = std::max(done, std::min(last, std::max(done, simulation_->next_time()).plus_saturated(step)));
     simulation_->run(done);
     post(safe);

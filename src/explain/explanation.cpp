@@ -35,21 +35,21 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(models::Storing:
     "",  // a refusal
 };
 
-std::string refused_with(const models::Refusal& refusal) {
-  const bool has_entry = refusal.amount != models::Refusal::no_entry;
+std::string refused_with(const models::BlockedRecord& refusal) {
+  const bool has_entry = refusal.amount != models::BlockedRecord::no_entry;
   switch (refusal.hindrance) {
-    case models::Hindrance::gate_closed:
+    case models::BlockReason::gate_closed:
       return "its gate is closed" + (has_entry ? ", entry " + std::to_string(refusal.amount) : std::string());
-    case models::Hindrance::guard:
+    case models::BlockReason::guard:
       return "it would not end before its gate closes" +
              (has_entry ? ", entry " + std::to_string(refusal.amount) : std::string());
-    case models::Hindrance::credit:
+    case models::BlockReason::credit:
       return "the credit of its class is negative, " + std::to_string(refusal.amount) + " bits are missing";
-    case models::Hindrance::not_eligible:
+    case models::BlockReason::not_eligible:
       return "its time has not come";
-    case models::Hindrance::hold:
+    case models::BlockReason::hold:
       return "the MAC holds";
-    case models::Hindrance::count:
+    case models::BlockReason::count:
       break;
   }
   TAKT_CHECK(false, "a hindrance that the models know");

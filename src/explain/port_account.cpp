@@ -7,14 +7,14 @@
 namespace takt::explain {
 namespace {
 
-Cause cause_of(models::Hindrance hindrance, bool has_launch_time) {
+Cause cause_of(models::BlockReason hindrance, bool has_launch_time) {
   switch (hindrance) {
-    case models::Hindrance::gate_closed: return Cause::gate_closed;
-    case models::Hindrance::guard: return Cause::guard;
-    case models::Hindrance::credit: return Cause::credit;
-    case models::Hindrance::not_eligible: return has_launch_time ? Cause::launch_time : Cause::ats;
-    case models::Hindrance::hold: return Cause::hold;
-    case models::Hindrance::count: break;
+    case models::BlockReason::gate_closed: return Cause::gate_closed;
+    case models::BlockReason::guard: return Cause::guard;
+    case models::BlockReason::credit: return Cause::credit;
+    case models::BlockReason::not_eligible: return has_launch_time ? Cause::launch_time : Cause::ats;
+    case models::BlockReason::hold: return Cause::hold;
+    case models::BlockReason::count: break;
   }
   TAKT_CHECK(false, "a hindrance that the models know");
   return Cause::hold;
@@ -54,7 +54,7 @@ void PortAccount::cut(Duration occupied) {
   last->free_at = last->at + occupied;
 }
 
-void PortAccount::refused(TrueTime now, TrueTime until, const models::Refusal& refusal) { decision_at(now).refusals.emplace_back(refusal, until); }
+void PortAccount::refused(TrueTime now, TrueTime until, const models::BlockedRecord& refusal) { decision_at(now).refusals.emplace_back(refusal, until); }
 
 std::optional<FrameName> PortAccount::last_started() const {
   const auto last =
@@ -94,7 +94,7 @@ void PortAccount::explain(const Waiting& waiting, std::vector<Part>& parts) cons
   const Decision* on_medium = nullptr;
   for (auto d = next; on_medium == nullptr && d != decisions_.begin();)
     if (--d; d->starts) on_medium = &*d;
-  const auto is_ours = [&](const std::pair<models::Refusal, TrueTime>& told) { return told.first.traffic_class == waiting.traffic_class && told.first.of_rest == waiting.is_rest; };
+  const auto is_ours = [&](const std::pair<models::BlockedRecord, TrueTime>& told) { return told.first.traffic_class == waiting.traffic_class && told.first.of_rest == waiting.is_rest; };
   TrueTime at = waiting.from;
   while (at < waiting.until) {
     TAKT_CHECK(next != decisions_.begin(), "a frame that waits has a reason");
@@ -103,7 +103,7 @@ void PortAccount::explain(const Waiting& waiting, std::vector<Part>& parts) cons
     for (const auto& told : decision.refusals) {
       const auto& [refusal, until] = told;
       if (!is_ours(told) || until <= at) continue;
-      const bool has_amount = refusal.hindrance == models::Hindrance::credit || ((refusal.hindrance == models::Hindrance::gate_closed || refusal.hindrance == models::Hindrance::guard) && refusal.amount != models::Refusal::no_entry);
+      const bool has_amount = refusal.hindrance == models::BlockReason::credit || ((refusal.hindrance == models::BlockReason::gate_closed || refusal.hindrance == models::BlockReason::guard) && refusal.amount != models::BlockedRecord::no_entry);
       const TrueTime so_far = std::min(until, end);
       append(parts, {cause_of(refusal.hindrance, waiting.has_launch_time), at, so_far - at, {}, has_amount ? refusal.amount : Part::no_amount});
       at = so_far;

@@ -15,7 +15,7 @@ class PortAccount {
   void started(TrueTime now, TrueTime free_at, FrameName frame, models::TrafficClass q, bool is_rest);
   /// It is cut, and has the medium for so long.
   void cut(Duration occupied);
-  void refused(TrueTime now, TrueTime until, const models::Refusal& refusal);
+  void refused(TrueTime now, TrueTime until, const models::BlockedRecord& refusal);
   /// Nobody waits who asks: only what is on the medium, and what is said at this instant, counts from here on.
   void forget(TrueTime now);
   /// Whoever waits has waited since then, or less: what was decided before it and is over does not count any more.
@@ -37,7 +37,7 @@ class PortAccount {
   /// From a decision of the port to the next one.
   struct Decision {
     TrueTime at;
-    std::vector<std::pair<models::Refusal, TrueTime>> refusals = {};   // and until when at most
+    std::vector<std::pair<models::BlockedRecord, TrueTime>> refusals = {};   // and until when at most
     bool starts = false;
     FrameName frame = {};
     TrueTime free_at = {};

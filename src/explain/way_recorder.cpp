@@ -78,7 +78,7 @@ void WayRecorder::record(const sim::TraceRecord& record) {
       return;
     case Occurrence::refused:
       if (const std::uint32_t position = directory_.find(record.where); waiting_[position].empty()) accounts_[position].forget(record.time);
-      accounts_[directory_.find(record.where)].refused(record.time, TrueTime::from_ps(static_cast<std::int64_t>(record.what)), models::Refusal::unpack(record.detail));
+      accounts_[directory_.find(record.where)].refused(record.time, TrueTime::from_ps(static_cast<std::int64_t>(record.what)), models::BlockedRecord::unpack(record.detail));
       return;
     default: return;
   }

@@ -11,7 +11,7 @@
 namespace takt::output {
 
 /// Records of a drop name the port whose queue the frame was in, or else only the node: filters, stream gates, meters and sequence recovery have no port. By which one
-/// the frame came in is in the record of its arrival, which networks write that tell ways (Network::tell_ways()).
+/// the frame came in is in the record of its arrival, which networks write that tell ways (Network::trace_paths()).
 class DropPlaces {
  public:
   static constexpr std::uint32_t none = models::PortDirectory::none;

@@ -18,7 +18,7 @@ namespace takt::output {
 /// What of all that happens somebody will be told of.
 struct TapeWants {
   std::uint32_t kinds = 0;   ///< bit k: records of the models::Occurrence of number k; those of gates_shown and ended come by the following
-  bool ways = false;         ///< which record of a frame was made of which: all kinds are told then, and Network::tell_ways() has been called
+  bool ways = false;         ///< which record of a frame was made of which: all kinds are told then, and Network::trace_paths() has been called
   bool gates = false;        ///< gates_shown
   bool payloads = false;     ///< octets of frames that start
   bool queues = false;       ///< how many frames wait

@@ -11,7 +11,7 @@ using namespace test;
 struct Recorded {
   explicit Recorded(NetworkRun& run, const Selection& selection, const std::string& path) : series(*run.network, selection, path), recorder(*run.network, series) {
     run.simulation.set_trace(&recorder);
-    run.network->tell_ways();
+    run.network->trace_paths();
   }
   HopSeries series;
   explain::WayRecorder recorder;

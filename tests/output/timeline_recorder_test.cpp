@@ -114,7 +114,7 @@ TEST(TimelineRecorder, ArrowsLeadFromHopToHopAndWaitsHaveACause) {
   ways.timeline = &timeline;
   explain::WayRecorder recorder(*run.network, ways);
   run.simulation.set_trace(&recorder);
-  run.network->tell_ways();
+  run.network->trace_paths();
   run.until(10_us);
   ASSERT_EQ(timeline.close(at(10_us)), "");
   std::vector<std::string> arrows, waits;

@@ -89,7 +89,7 @@ void DividedRun::advance(sim::TrueTime until) {
 
 const Run& DividedRun::gathered() {
   if (!is_gathered_) {
-    for (const auto& each : parts_) each->part.take_mail();
+    for (const auto& each : parts_) each->part.receive_posted();
     std::vector<const Run*> others;
     for (std::size_t p = 1; p < parts_.size(); ++p) others.push_back(&parts_[p]->run);
     parts_[0]->run.adopt(others);

@@ -38,7 +38,7 @@ class Run {
   /// Hands all that happens from now on to the sink: also the ways of frames, so that explanations can be made of it. Null: to nobody.
   void explain_to(sim::TraceSink* sink) {
     simulation_.set_trace(sink);
-    if (sink != nullptr) network_.tell_ways();
+    if (sink != nullptr) network_.trace_paths();
   }
   /// Of trees of nested programs.
   const std::vector<std::unique_ptr<TreeMonitor>>& trees() const { return trees_; }

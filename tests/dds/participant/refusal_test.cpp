@@ -6,7 +6,7 @@ namespace {
 
 using Problems = std::vector<std::string>;
 
-TEST(Refusal, OfWhatIsLeftOut) {
+TEST(BlockedRecord, OfWhatIsLeftOut) {
   World world;
   Participant& participant = world.add();
   WriterConfig writer = writer_config();
@@ -18,7 +18,7 @@ TEST(Refusal, OfWhatIsLeftOut) {
   EXPECT_EQ(participant.create_reader(reader, start).problems, (Problems{"content_filter: an expression and what it lets pass belong together"}));
 }
 
-TEST(Refusal, OfPoliciesThatContradictThemselves) {
+TEST(BlockedRecord, OfPoliciesThatContradictThemselves) {
   World world;
   Participant& participant = world.add();
   ReaderConfig reader = reader_config();
@@ -36,7 +36,7 @@ TEST(Refusal, OfPoliciesThatContradictThemselves) {
                       "flow_controller: there is none of the name none", "flow_share: priority is -10 to 10", "flow_share: reservation is 0 to 100 percent"}));
 }
 
-TEST(Refusal, OfParticipants) {
+TEST(BlockedRecord, OfParticipants) {
   ParticipantConfig config;
   config.domain = 1000;
   config.max_message = 100;
@@ -49,7 +49,7 @@ TEST(Refusal, OfParticipants) {
   EXPECT_EQ(problems[5], "flow controller b: there are two of this name");
 }
 
-TEST(Refusal, OfWrites) {
+TEST(BlockedRecord, OfWrites) {
   Pair pair;
   EXPECT_EQ(pair.writing->write(pair.writer, InstanceKey{1}, payload_of(1), start).reason, "bad parameter: the topic has no key");
   EXPECT_EQ(pair.writing->dispose(pair.writer, no_key, start).verdict, WriteVerdict::refused);

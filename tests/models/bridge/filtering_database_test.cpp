@@ -19,7 +19,7 @@ using Ports = std::vector<std::uint16_t>;
 Ports ports_of(const FilteringDatabase& database, VlanId vlan, std::uint32_t address) {
   const FilteringDatabase::Entry entry = database.find(vlan, AddressIndex{address});
   // What is known at once is what find() says.
-  const std::uint32_t at_once = database.port_at_once(vlan, AddressIndex{address});
+  const std::uint32_t at_once = database.single_egress_port(vlan, AddressIndex{address});
   if (at_once != FilteringDatabase::not_at_once) {
     EXPECT_TRUE(entry.found() && entry.is_one_port());
     EXPECT_EQ(at_once, entry.port());
@@ -33,20 +33,20 @@ Ports ports_of(const FilteringDatabase& database, VlanId vlan, std::uint32_t add
 // A lone entry lies where it is looked for first; one of several ports, or of another VLAN, is never known at once.
 TEST(FilteringDatabase, KnowsOnePortAtOnce) {
   FilteringDatabase database;
-  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
+  EXPECT_EQ(database.single_egress_port(1, AddressIndex{5}), FilteringDatabase::not_at_once);
   database.add(1, AddressIndex{5}, 0x7FFE);
-  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), 0x7FFEu);
-  EXPECT_EQ(database.port_at_once(2, AddressIndex{5}), FilteringDatabase::not_at_once);
-  EXPECT_EQ(database.port_at_once(1, AddressIndex{4}), FilteringDatabase::not_at_once);
+  EXPECT_EQ(database.single_egress_port(1, AddressIndex{5}), 0x7FFEu);
+  EXPECT_EQ(database.single_egress_port(2, AddressIndex{5}), FilteringDatabase::not_at_once);
+  EXPECT_EQ(database.single_egress_port(1, AddressIndex{4}), FilteringDatabase::not_at_once);
   database.add(1, AddressIndex{5}, 3);
-  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
+  EXPECT_EQ(database.single_egress_port(1, AddressIndex{5}), FilteringDatabase::not_at_once);
 }
 
 // The internal port of a station is none of those that a frame is handed to at once.
 TEST(FilteringDatabase, NeverKnowsTheInternalPortAtOnce) {
   FilteringDatabase database;
   database.add(1, AddressIndex{5}, internal_port);
-  EXPECT_EQ(database.port_at_once(1, AddressIndex{5}), FilteringDatabase::not_at_once);
+  EXPECT_EQ(database.single_egress_port(1, AddressIndex{5}), FilteringDatabase::not_at_once);
   EXPECT_EQ(database.entries(), 1u);
   EXPECT_EQ(ports_of(database, 1, 5), Ports{internal_port});
   database.add(1, AddressIndex{5}, 2);

@@ -176,14 +176,14 @@ class ListRecovery {
   void reset() {
     number_ = 65'535;
     history_.assign(static_cast<std::size_t>(length_), false);
-    take_any_ = true;
+    accept_any_ = true;
     ++counters.resets;
   }
   bool recover(int sequence) {
     int delta = (sequence - number_ + 2 * 65'536) % 65'536;
     if (delta > 32'767) delta -= 65'536;
-    if (take_any_) {
-      take_any_ = false;
+    if (accept_any_) {
+      accept_any_ = false;
       history_[0] = true;
       number_ = sequence;
       return verdict(true);
@@ -218,7 +218,7 @@ class ListRecovery {
   }
   int length_;
   int number_ = 0;
-  bool take_any_ = true;
+  bool accept_any_ = true;
   std::deque<bool> history_;
 };
 

@@ -57,7 +57,7 @@ TEST(SelectRoles, FollowsTheBestAndTellsTheOthers) {
   EXPECT_EQ(s.grandmaster.root.clock, clock(9));
   EXPECT_EQ(s.grandmaster.steps_removed, 1);
   EXPECT_EQ(s.roles, (Roles{transmitter, transmitter, receiver}));
-  EXPECT_EQ(s.told_at(2, self.clock).source, (PortIdentity{self.clock, 2}));
+  EXPECT_EQ(s.announced_at(2, self.clock).source, (PortIdentity{self.clock, 2}));
 }
 
 TEST(SelectRoles, TheFewerStepsThenTheSmallerSource) {

@@ -66,7 +66,7 @@ TEST(OsLatency, AFixedDelayIsADegenerateRandomOne) {
     Link link(latency);
     link.builder.talk(link.stream, 100_B, PeriodicSchedule{0_us, 10_us, 0_us});
     NetworkRun run(link.builder.plan);
-    if (i == 2) run.network->tell_ways();
+    if (i == 2) run.network->trace_paths();
     run.until(10_ms);
     digests[i] = run.digest();
     events[i] = run.simulation.event_count();
@@ -86,7 +86,7 @@ TEST(OsLatency, WhoDrawsDoesNotMatter) {
     Link link(latency);
     link.builder.talk(link.stream, 100_B, PeriodicSchedule{0_us, 10_us, 0_us});
     NetworkRun run(link.builder.plan);
-    if (told == 1) run.network->tell_ways();
+    if (told == 1) run.network->trace_paths();
     run.until(10_ms);
     digests[told] = run.digest();
   }

@@ -1,4 +1,4 @@
-#include "models/egress/sole_sender.hpp"
+#include "models/egress/single_talker_port.hpp"
 
 #include <algorithm>
 
@@ -7,10 +7,13 @@ namespace {
 constexpr std::size_t few = 64;  // frames that are kept together until it is asked which have started
 }
 
-SoleSender::SoleSender(const sim::Simulation& simulation, Link& link, TrafficClass q) : simulation_(&simulation), link_(&link), class_(q) { sent_.reserve(few); }
+SingleTalkerPort::SingleTalkerPort(const sim::Simulation& simulation, Link& link, TrafficClass q)
+    : simulation_(&simulation), link_(&link), class_(q) {
+  sent_.reserve(few);
+}
 
 /// Those that have started are as good as gone: no later one is handed over before now.
-void SoleSender::make_room(sim::TrueTime now) {
+void SingleTalkerPort::make_room(sim::TrueTime now) {
   note_peaks(now);
   const auto first = std::find_if(sent_.begin(), sent_.end(), [now](const Sent& sent) { return sent.start > now; });
   const auto gone = static_cast<std::size_t>(first - sent_.begin());
@@ -22,20 +25,21 @@ void SoleSender::make_room(sim::TrueTime now) {
 }
 
 /// As a port does it: what starts at the instant at which another one comes does not wait.
-void SoleSender::note_peaks(sim::TrueTime now) {
+void SingleTalkerPort::note_peaks(sim::TrueTime now) {
   for (; noted_ < sent_.size() && sent_[noted_].handed_over <= now; ++noted_) {
-    if (sent_[noted_].start == sent_[noted_].handed_over) {   // those before it have started
+    if (sent_[noted_].start == sent_[noted_].handed_over) {  // those before it have started
       waiting_ = noted_ + 1;
       octets_waiting_ = 0;
       continue;
     }
     octets_waiting_ += sent_[noted_].length;
-    while (waiting_ <= noted_ && sent_[waiting_].start <= sent_[noted_].handed_over) octets_waiting_ -= sent_[waiting_++].length;
+    while (waiting_ <= noted_ && sent_[waiting_].start <= sent_[noted_].handed_over)
+      octets_waiting_ -= sent_[waiting_++].length;
     if (waiting_ <= noted_) held_.note_held(class_, static_cast<std::uint32_t>(noted_ + 1 - waiting_), octets_waiting_);
   }
 }
 
-SoleSender::ToCome SoleSender::to_come() const {
+SingleTalkerPort::ToCome SingleTalkerPort::to_come() const {
   ToCome result;
   for (const Sent& sent : sent_) {
     if (sent.start <= simulation_->now()) continue;
@@ -45,7 +49,7 @@ SoleSender::ToCome SoleSender::to_come() const {
   return result;
 }
 
-const PortQueues& SoleSender::queues() {
+const PortQueues& SingleTalkerPort::queues() {
   note_peaks(simulation_->now());
   return held_;
 }

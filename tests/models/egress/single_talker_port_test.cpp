@@ -64,7 +64,7 @@ struct Plant {
 };
 
 // A recorder is told of each step at its time, so a recorded run takes all steps. At many ends, most of them with frames that are still to be sent.
-TEST(SoleSender, SendsAsAPortDoes) {
+TEST(SingleTalkerPort, SendsAsAPortDoes) {
   for (const Distribution& transmit : {Distribution::constant({}), Distribution::constant(9_us), Distribution::uniform(0_us, 90_us)}) {
     for (const bool to_bridge : {false, true}) {
       const Plant plant(transmit, to_bridge);
@@ -82,13 +82,13 @@ TEST(SoleSender, SendsAsAPortDoes) {
         peak = std::max(peak, seen.peak_frames);
       }
       EXPECT_GE(peak, 3u);
-      EXPECT_GT(most_ahead, 0u) << "it is a sole sender";
+      EXPECT_GT(most_ahead, 0u) << "it has a single talker";
     }
   }
 }
 
 // What goes on being recorded or not halfway has no part in it either: frames that were sent before are under way.
-TEST(SoleSender, AnybodyMayBeginToRecord) {
+TEST(SingleTalkerPort, AnybodyMayBeginToRecord) {
   const Plant plant(Distribution::uniform(0_us, 90_us), false);
   const auto digest_of = [&](Duration from) {
     NetworkRun run(plant.builder.plan, 3);
@@ -109,7 +109,7 @@ TEST(SoleSender, AnybodyMayBeginToRecord) {
 }
 
 // Two classes may overtake each other, a limit may drop frames, and a second sender may come in between: then a port decides as ever.
-TEST(SoleSender, IsNoneWhereThereIsSomethingToDecide) {
+TEST(SingleTalkerPort, IsNoneWhereThereIsSomethingToDecide) {
   const auto same = [](const Plant& plant, const char* what) {
     for (int i = 0; i < 40; ++i) {
       std::uint64_t ahead = 0;

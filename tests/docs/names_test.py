@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Comments and documents name no source file that is not there.
+"""Comments and documents name no source file, and READMEs no function, that is not there.
 
 usage: names_test.py SOURCE
 """
@@ -9,6 +9,9 @@ import subprocess
 import sys
 
 NAME = re.compile(r"(?<![\w./*<-])((?:[\w-]+/)*[\w-]+\.(?:hpp|cpp|md))\b")
+# A function as READMEs write it: `Class::function`, `function()`.
+FUNCTION = re.compile(r"`(?:\w+::)*?(?:\w+::(\w+)|(\w+)\(\))`")
+CODE = (".cpp", ".hpp", ".inc", ".py", ".ts", ".mjs", ".cmake")
 COMMENT = re.compile(r"//.*|#.*")
 # Placeholders of instructions, by the file that has them.
 EXAMPLES = {("cmake/takt.cmake", name) for name in ("a.cpp", "b.cpp", "a_test.cpp", "main.cpp", "command.cpp")} | {("src/cli/CMakeLists.txt", "command.cpp")}
@@ -25,7 +28,11 @@ def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     names = files(root)
     tails = {"/".join(name.split("/")[at:]) for name in names for at in range(name.count("/") + 1)}
-    wrong = looked_at = 0
+    wrong = looked_at = functions = 0
+    words = set()
+    for name in names:
+        if name.endswith(CODE) or name.startswith("tools/"):
+            words |= set(re.findall(r"\w+", (root / name).read_text(encoding="utf-8", errors="ignore")))
     for name in names:
         if not name.endswith((".cpp", ".hpp", ".py", ".cmake", "CMakeLists.txt", ".md")):
             continue
@@ -33,13 +40,18 @@ def main():
             text = line if name.endswith(".md") else (COMMENT.search(line) or [""])[0]
             if text.startswith("#include"):
                 continue
+            for member, function in FUNCTION.findall(line) if name.endswith(".md") and not name.startswith("docs/") else ():
+                functions += 1
+                if (member or function) not in words:
+                    print(f"{name}:{number}: {member or function} is not there")
+                    wrong += 1
             for found in NAME.findall(text):
                 looked_at += 1
                 if found not in tails and (name, found) not in EXAMPLES:
                     print(f"{name}:{number}: {found} is not there")
                     wrong += 1
-    print(f"{looked_at} names of files, {wrong} of none")
-    return 1 if wrong or looked_at < 100 else 0
+    print(f"{looked_at} names of files and {functions} of functions, {wrong} of none")
+    return 1 if wrong or looked_at < 100 or functions < 50 else 0
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 usage: pages_test.py TAKT SOURCE_FOLDER [unittest options]
 """
 import json
+import os
 import pathlib
 import re
 import shlex
@@ -30,6 +31,8 @@ NOT_RUN = {
     "takt explore --slaves 1 --nested --faults": "takes minutes of a processor: tests/explore",
     "takt explore --slaves 1 --nested --candidates": "takes minutes of a processor: tests/explore",
 }
+if os.environ.get("TAKT_TIER") == "quick":
+    NOT_RUN["takt study scenarios/studies/schedulability.json"] = "takes minutes of a processor: it runs in the full tier"
 # What makes the long ones short; the answer is asked elsewhere.
 SHORTER = {"run": ["--duration", "2ms"], "verify": ["--budget", "1", "--seeds", "1"], "compare": ["--pairs", "2"]}
 # An instance for the pages that speak of one: two machines at two of three switches in a ring.

@@ -41,6 +41,22 @@ def counted(program, arguments, out):
     return dict(zip(names.group(1).split(), map(int, values.group(1).split()))), figures_of(done.stdout)
 
 
+def instructions_per_hop(program, workload):
+    """Instructions of the event loop per frame-hop; None if valgrind is not there or does not count."""
+    counts = []
+    for arguments in WORKLOADS[workload]:
+        try:
+            done = subprocess.run(["valgrind", "--tool=callgrind", f"--toggle-collect={LOOP}", "--callgrind-out-file=/dev/null", program, *arguments], capture_output=True, text=True)
+        except FileNotFoundError:
+            return None
+        found = re.search(r"Collected : (\d+)", done.stderr)
+        if done.returncode != 0 or not found:
+            return None
+        counts.append((int(found.group(1)), figures_of(done.stdout)))
+    (few, few_hops), (many, many_hops) = counts
+    return (many - few) / (many_hops - few_hops)
+
+
 def by_function(file):
     """Instructions of each function itself."""
     text = subprocess.run(["callgrind_annotate", "--threshold=100", "--show=Ir", "--auto=no", file], capture_output=True, text=True).stdout

@@ -278,11 +278,10 @@ class RouteMaker {
   }
 
   bool cuts_through(std::uint32_t node, models::Priority priority) const {
-    for (const GraphPort& port : graph_.ports)
-      if (port.node.value == node) {
-        const models::PortConfig& config = r_.plan.port_configs[port.config];
-        if (models::contains(config.cut_through, config.traffic_class_of_priority[priority])) return true;
-      }
+    for (auto at = port_at_.lower_bound({node, 0}); at != port_at_.end() && at->first.first == node; ++at) {
+      const models::PortConfig& config = r_.plan.port_configs[graph_.ports[at->second].config];
+      if (models::contains(config.cut_through, config.traffic_class_of_priority[priority])) return true;
+    }
     return false;
   }
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "results/behaviour.hpp"
 #include "sim/check.hpp"
 
 namespace takt::cli {
@@ -40,6 +41,10 @@ const char* missing_text(std::string_view program) {
   return companion == std::end(companions) ? companions[0].missing : companion->missing;
 }
 
+/// What takt tells a companion of itself: the number of behaviour.
+constexpr const char* starter_variable = "TAKT_STARTED_BY_BEHAVIOUR";
+void announce_behaviour() { ::setenv(starter_variable, std::to_string(results::behaviour()).c_str(), 1); }
+
 /// As exec takes them; they point into `words`.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
   std::vector<char*> pointers;
@@ -50,6 +55,11 @@ std::vector<char*> pointers_to(std::vector<std::string>& words) {
 
 }  // namespace
 
+bool is_of_another_takt() {
+  const char* const starter = std::getenv(starter_variable);
+  return starter != nullptr && starter != std::to_string(results::behaviour());
+}
+
 ExitStatus become(std::string_view program, std::vector<std::string> words) {
   const std::string path = path_of_program(program);
   if (path.empty()) {
@@ -58,6 +68,7 @@ ExitStatus become(std::string_view program, std::vector<std::string> words) {
                  words[1].c_str(), std::string(program).c_str(), missing_text(program));
     return ExitStatus::bad_input;
   }
+  announce_behaviour();
   ::execv(path.c_str(), pointers_to(words).data());
   std::fprintf(stderr, "takt: cannot start %s: %s\n", path.c_str(), std::strerror(errno));
   return ExitStatus::internal_error;
@@ -66,6 +77,7 @@ ExitStatus become(std::string_view program, std::vector<std::string> words) {
 std::optional<std::string> output_of(std::string_view program, std::vector<std::string> words) {
   const std::string path = path_of_program(program);
   const std::vector<char*> arguments = pointers_to(words);
+  announce_behaviour();
   int ends[2];
   if (path.empty() || ::pipe(ends) != 0) return std::nullopt;
   const pid_t child = ::fork();

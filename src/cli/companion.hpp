@@ -45,6 +45,10 @@ std::string path_of_program(std::string_view program);
 /// if that cannot be; the reason has been printed then.
 ExitStatus become(std::string_view program, std::vector<std::string> words);
 
+/// Of a companion: takt has started it, and its number of behaviour is not that of this program. So one of both is from
+/// another build.
+bool is_of_another_takt();
+
 /// What `program` prints for these words; none if it is not there or fails.
 std::optional<std::string> output_of(std::string_view program, std::vector<std::string> words);
 

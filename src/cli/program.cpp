@@ -39,6 +39,11 @@ int run_program(int argc, char** argv, const std::string& version, std::initiali
 }
 
 int run_companion(int argc, char** argv, std::initializer_list<AddCommand> commands) {
+  if (is_of_another_takt()) {
+    std::fprintf(stderr, "takt %s: this program is from another build than the takt that started it, and behaves otherwise: "
+                 "build or install both\n", argc > 1 ? argv[1] : "");
+    return static_cast<int>(ExitStatus::bad_input);
+  }
   return run_program(argc, argv, std::string("takt ") + results::version, commands);
 }
 

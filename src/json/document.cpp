@@ -51,7 +51,7 @@ class TreeBuilder {
   bool scalar(Kind kind, std::string text = {}, bool boolean = false);
   bool open(Kind kind);
   bool close();
-  bool count_value(Position position);
+  bool count_value(const Node& value);
   void attach(Node value);
   void drop_duplicates(Node& object);
   std::string pointer() const;
@@ -62,7 +62,7 @@ class TreeBuilder {
   const std::string& file_name_;
   Diagnostics& diagnostics_;
   Before before_ = Before::nothing;
-  std::size_t values_ = 0;
+  std::size_t memory_ = 0;  // of all values and names
   std::vector<Open> open_;
   Node root_;
 };
@@ -81,7 +81,7 @@ bool TreeBuilder::scalar(Kind kind, std::string text, bool boolean) {
     return report_syntax_error();
   }
   node.text = kind == Kind::number ? std::string(token) : std::move(text);
-  if (!count_value(node.position)) return false;
+  if (!count_value(node)) return false;
   attach(std::move(node));
   return true;
 }
@@ -95,7 +95,7 @@ bool TreeBuilder::open(Kind kind) {
     return fail(node.position, "arrays and objects are nested too deeply",
                 {"", fmt::format("at most {} levels", max_depth), ""});
   cursor_.take_token();
-  if (!count_value(node.position)) return false;
+  if (!count_value(node)) return false;
   open_.push_back({std::move(node), {}, {}});
   before_ = kind == Kind::object ? Before::object_start : Before::array_start;
   return true;
@@ -126,9 +126,14 @@ bool TreeBuilder::key(std::string& name) {
   return true;
 }
 
-bool TreeBuilder::count_value(Position position) {
-  if (++values_ <= max_values) return true;
-  return fail(position, "too many values", {"", fmt::format("at most {}", max_values), ""});
+/// What the value takes when it is part of the tree. Longer texts than a string holds in itself are allocations.
+bool TreeBuilder::count_value(const Node& value) {
+  const auto allocated = [](const std::string& text) { return text.size() > 15 ? text.capacity() : 0; };
+  const bool is_member = !open_.empty() && open_.back().node.kind == Kind::object;
+  memory_ += is_member ? sizeof(Member) + allocated(open_.back().key) : sizeof(Node);
+  memory_ += allocated(value.text);
+  if (memory_ <= max_memory) return true;
+  return fail(value.position, "values that take too much memory", {"", fmt::format("at most {} MiB", max_memory >> 20), ""});
 }
 
 void TreeBuilder::attach(Node value) {

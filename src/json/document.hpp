@@ -17,7 +17,7 @@ namespace takt::json {
 /// What bounds memory and time for hostile input. More is a diagnostic.
 constexpr std::size_t max_text_size = std::size_t{64} << 20;  ///< octets of one text
 constexpr std::size_t max_depth = 64;                         ///< arrays and objects within each other
-constexpr std::size_t max_values = std::size_t{1} << 20;      ///< values of one text, of every kind
+constexpr std::size_t max_memory = std::size_t{1} << 30;      ///< octets that the values of one text take
 constexpr std::size_t max_key_length = 1024;                  ///< octets of the name of a member
 
 struct Tree {

@@ -7,6 +7,8 @@
 namespace takt::scenario {
 
 inline constexpr std::uint64_t most_nodes = 200'000;
+inline constexpr std::uint64_t most_links = 400'000;
+inline constexpr std::uint64_t most_streams = 1'000'000;
 inline constexpr std::uint32_t most_ports = 4'096;             ///< of one node
 inline constexpr std::size_t most_end_station_ports = 8;           ///< of a host or a station
 inline constexpr std::uint64_t most_trace_entries = 10'000'000;

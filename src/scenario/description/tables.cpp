@@ -3,6 +3,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "plant/limits.hpp"
 #include "scenario/description/description.hpp"
+#include "scenario/description/limits.hpp"
 
 namespace takt::scenario {
 namespace {
@@ -202,7 +203,7 @@ const json::Object& describe(json::Type<Scenario>) {
       optional<&Scenario::applications>("applications", "Applications with threads that publish and subscribe.", {.max_items = 10'000}),
       optional<&Scenario::gateways>("gateways", "Between topics of different protocols.", {.max_items = 10'000}),
       optional<&Scenario::persistence>("persistence", "Persistence services of DDS.", {.max_items = 100}),
-      optional<&Scenario::streams>("streams", "Other traffic.", {.max_items = most_names}),
+      optional<&Scenario::streams>("streams", "Other traffic.", {.max_items = most_streams}),
       optional<&Scenario::script>("script", "What is done when.", {.max_items = most_names}),
       optional<&Scenario::faults>("faults", "What goes wrong.", {.max_items = most_names}),
       optional<&Scenario::rerouting>("rerouting", "How long the switches take to forward around what is down; they do not if absent."),

@@ -3,6 +3,7 @@
 #include "models/ethernet/sizes.hpp"
 #include "plant/limits.hpp"
 #include "scenario/description/description.hpp"
+#include "scenario/description/limits.hpp"
 
 namespace takt::scenario {
 
@@ -402,8 +403,8 @@ const json::Object& describe(json::Type<Generator>) {
 
 const json::Object& describe(json::Type<NetworkSection>) {
   static constexpr json::Field fields[] = {
-      optional<&NetworkSection::nodes>("nodes", "Hosts, switches and stations by name.", {.max_items = most_names}),
-      optional<&NetworkSection::links>("links", "The cables between them.", {.max_items = most_names}),
+      optional<&NetworkSection::nodes>("nodes", "Hosts, switches and stations by name.", {.max_items = most_nodes}),
+      optional<&NetworkSection::links>("links", "The cables between them.", {.max_items = most_links}),
       optional<&NetworkSection::generate>("generate", "Generated topologies; nodes and links may add to them.",
                                           {.max_items = 64}),
       optional<&NetworkSection::mtu>("mtu", "Of nodes that do not say it themselves.",

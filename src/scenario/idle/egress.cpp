@@ -169,7 +169,7 @@ class EgressTeller {
   }
   DataRate rate_of(std::uint32_t from, std::uint32_t to) const {
     const auto port = usage_.resolved().topology.port_towards(from, to);
-    return port ? usage_.ports().at({from, *port}).link->rate : DataRate{};
+    return port ? usage_.port(from, *port).link->rate : DataRate{};
   }
 
   void untagged() {

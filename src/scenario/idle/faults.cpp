@@ -41,7 +41,7 @@ class FaultTeller {
       return colon == std::string::npos || text.substr(colon + 1) == std::to_string(port);
     };
     std::vector<const PortUse*> ports;
-    for (const auto& [key, use] : usage_.ports()) {
+    for (const PortUse& use : usage_.ports()) {
       const models::LinkPlan::End& peer = use.link->a.node.value == use.node && use.link->a.port == use.port ? use.link->b : use.link->a;
       const bool joins = (is(link[0], use.node, use.port) && is(link[1], peer.node.value, peer.port)) || (is(link[1], use.node, use.port) && is(link[0], peer.node.value, peer.port));
       if (joins && (!towards || *towards == r_.topology.nodes[use.peer].name)) ports.push_back(&use);
@@ -72,14 +72,14 @@ class FaultTeller {
   }
   void tell(const Crash& fault) {
     bool is_used = false;
-    for (const auto& [key, port] : usage_.ports())
+    for (const PortUse& port : usage_.ports())
       is_used = is_used || (port.classes != 0 && (r_.topology.nodes[port.node].name == fault.node || r_.topology.nodes[port.peer].name == fault.node));
     if (!is_used) warn(fault.where.at("node"), "a crash of a node that no stream crosses", {json::quote(fault.node), "a node on the path of a stream"});
   }
   void tell(const Babble&) {}
   void tell(const StuckGate& fault) {
     std::vector<const PortUse*> ports;
-    for (const auto& [key, port] : usage_.ports())
+    for (const PortUse& port : usage_.ports())
       if (r_.topology.nodes[port.node].name == fault.node && (!fault.to || r_.topology.nodes[port.peer].name == *fault.to)) ports.push_back(&port);
     const models::TrafficClass q = fault.traffic_class;
     if (std::none_of(ports.begin(), ports.end(), [q](const PortUse* port) { return port->uses(q); }))

@@ -109,7 +109,7 @@ class GatesTeller {
 Ports ports_of(const Usage& usage, const SetGates& set) {
   Ports ports;
   const Topology& topology = usage.resolved().topology;
-  for (const auto& [key, port] : usage.ports())
+  for (const PortUse& port : usage.ports())
     if (topology.nodes[port.node].name == set.node && (!set.to || topology.nodes[port.peer].name == *set.to)) ports.push_back(&port);
   return ports;
 }
@@ -151,7 +151,7 @@ void tell_idle_queues(const Usage& usage, json::Diagnostics& diagnostics) {
     for (const Queues::PerClass& one : queues.classes) {
       auto& [limit, ports] = limits[one.where.place().pointer];
       limit = &one;
-      for (const auto& [key, port] : usage.ports())
+      for (const PortUse& port : usage.ports())
         if (port.node == n) ports.push_back(&port);
     }
   }

@@ -86,10 +86,10 @@ class IngressTeller {
         warn(filter.where.at("max_sdu"), "a maximum SDU that no frame exceeds", {json::to_text(*filter.max_sdu) + ", and the longest frame has " + json::to_text(longest->policed_msdu), "a size below it"});
     }
     if (!filter.ats) return;
-    const bool is_minded = std::any_of(met.begin(), met.end(), [&](const StreamAtPort* at) { return (usage_.ports().at({at->node, at->port}).config->shaping.timed() & at->classes) != 0; });
+    const bool is_minded = std::any_of(met.begin(), met.end(), [&](const StreamAtPort* at) { return (usage_.port(at->node, at->port).config->shaping.timed() & at->classes) != 0; });
     if (!is_minded)
       warn(filter.where.at("ats"), "eligibility times that no port minds",
-           {"class " + text_of_classes(met.front()->classes) + " at " + usage_.name({&usage_.ports().at({met.front()->node, met.front()->port})}) + ", which is not sent by them", "the class in \"ats\" of \"egress\""});
+           {"class " + text_of_classes(met.front()->classes) + " at " + usage_.name({&usage_.port(met.front()->node, met.front()->port)}) + ", which is not sent by them", "the class in \"ats\" of \"egress\""});
   }
 
   /// Whether a filter names the entry; if not, that is told.
@@ -133,7 +133,7 @@ class IngressTeller {
 
   /// What is received in a cycle must be sent in one, but for the dead time and the gap behind its last frame.
   void cqf(const Cqf& cqf) {
-    for (const auto& [key, port] : usage_.ports()) {
+    for (const PortUse& port : usage_.ports()) {
       if (!std::binary_search(nodes_.begin(), nodes_.end(), port.node)) continue;
       double load = 0;
       for (const std::uint8_t q : cqf.classes) load += usage_.load(port, q);

@@ -26,7 +26,7 @@ bool tells_apart(const Usage& usage, const Stream& stream) {
   return std::any_of(usage.streams().begin(), usage.streams().end(), [&](const StreamAtPort& at) {
     const models::StreamPlan& plan = usage.plan(at);
     if (plan.name != stream.name || plan.talker.value != at.node) return false;
-    const auto& class_of = usage.ports().at({at.node, at.port}).config->traffic_class_of_priority;
+    const auto& class_of = usage.port(at.node, at.port).config->traffic_class_of_priority;
     return class_of[*stream.host_priority] != class_of[0];
   });
 }

@@ -12,7 +12,6 @@
 namespace takt::scenario {
 namespace {
 
-
 const std::vector<Egress>& egress_of(const TopologyNode& node) { return ports_of(node.description).egress; }
 
 /// What tells one object of a file from others: generated nodes are copies of one.
@@ -22,24 +21,32 @@ std::string key_of(const json::Source& where, const void* object) {
 
 }  // namespace
 
-Usage::Usage(const Resolved& resolved) : r_(resolved), streams_(streams_at_ports(resolved)) {
+Usage::Usage(const Resolved& resolved) : r_(resolved), streams_(streams_at_ports(resolved)), place_(resolved.topology) {
+  add_ports();
+  for (const ResolvedAction& action : r_.script)
+    if (const auto* gates = std::get_if<ResolvedGates>(&action.what))
+      use(gates->node.value, gates->port).gates.push_back(&gates->gates);
+  add_rerouted();
+  add_streams();
+  add_gptp();
+  add_egress();
+  add_ingress();
+}
+
+void Usage::add_ports() {
   for (const models::LinkPlan& link : r_.plan.links)
     for (const auto& [end, peer] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
-      PortUse& use = ports_[{end->node.value, end->port}];
+      PortUse use;
       use.node = end->node.value;
       use.port = end->port;
       use.peer = peer->node.value;
       use.link = &link;
       use.config = &port_config_of(r_.plan, *end);
       if (use.config->shaping.gates) use.gates.push_back(&*use.config->shaping.gates);
+      ports_.push_back(std::move(use));
     }
-  for (const ResolvedAction& action : r_.script)
-    if (const auto* gates = std::get_if<ResolvedGates>(&action.what)) ports_.at({gates->node.value, gates->port}).gates.push_back(&gates->gates);
-  add_rerouted();
-  add_streams();
-  add_gptp();
-  add_egress();
-  add_ingress();
+  std::ranges::sort(ports_, {}, [](const PortUse& use) { return std::pair(use.node, use.port); });
+  for (std::uint32_t i = 0; i < ports_.size(); ++i) place_.at(ports_[i].node, ports_[i].port) = i;
 }
 
 /// Streams come over other ports, too, once rerouting has found other ways. Appended before anybody points into the list.
@@ -65,7 +72,7 @@ void Usage::add_rerouted() {
         for (const std::uint16_t port : entry.ports) {
           if (port == models::internal_port) continue;
           if (!known.insert({entry.node.value, port, stream.index.value}).second) continue;
-          const PortUse& use = ports_.at({entry.node.value, port});
+          const PortUse& use = this->port(entry.node.value, port);
           const Octets msdu = plan.headers + stream.largest_payload;
           StreamAtPort at{stream.index, {}, use.node, port, use.peer};
           if (use.node != plan.talker.value) at.filter = ingress.filter(use.node, frame);
@@ -80,14 +87,14 @@ void Usage::add_rerouted() {
 
 void Usage::add_streams() {
   for (const StreamAtPort& at : streams_) {
-    PortUse& use = ports_.at({at.node, at.port});
+    PortUse& use = this->use(at.node, at.port);
     use.streams.push_back(&at);
     use.classes = static_cast<models::ClassSet>(use.classes | at.classes);
   }
 }
 
 void Usage::add_gptp() {
-  for (auto& [key, use] : ports_) {
+  for (PortUse& use : ports_) {
     const bool speaks = use.node < r_.plan.gptp.size() && r_.plan.gptp[use.node] && r_.plan.gptp[use.peer];
     if (!speaks) continue;
     use.classes_of_gptp = models::with(0, use.config->traffic_class_of_priority[priority_of_gptp]);
@@ -101,8 +108,7 @@ void Usage::add_egress() {
     for (const Egress& egress : egress_of(r_.topology.nodes[n])) {
       const auto [found, is_new] = known.emplace(key_of(egress.where, &egress), egress_.size());
       if (is_new) egress_.push_back({&egress, r_.topology.nodes[n].name, {}});
-      for (const auto& [key, use] : ports_) {
-        if (use.node != n) continue;
+      for (const PortUse& use : std::ranges::equal_range(ports_, n, {}, &PortUse::node)) {
         const Neighbour& peer = *std::ranges::find(r_.topology.neighbours[n], use.port, &Neighbour::port);
         const auto goes_before = [&](const Egress& other) {
           return other.to && r_.topology.is_named(*other.to, peer.node, peer.their_port) &&

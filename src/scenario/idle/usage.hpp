@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "scenario/resolve/stream_at_port.hpp"
+#include "scenario/topology/port_table.hpp"
 
 namespace takt::scenario {
 
@@ -46,7 +46,9 @@ class Usage {
 
   const Resolved& resolved() const { return r_; }
   const std::vector<StreamAtPort>& streams() const { return streams_; }
-  const std::map<std::pair<std::uint32_t, std::uint16_t>, PortUse>& ports() const { return ports_; }   ///< by node and port
+  /// Those that a link ends at, by node and number.
+  const std::vector<PortUse>& ports() const { return ports_; }
+  const PortUse& port(std::uint32_t node, std::uint16_t number) const { return ports_[place_.at(node, number)]; }
   const std::vector<EgressUse>& egress() const { return egress_; }
   const std::vector<IngressUse>& ingress() const { return ingress_; }
 
@@ -65,6 +67,8 @@ class Usage {
   bool is_after_the_end(Duration at) const { return at >= r_.scenario.duration; }
 
  private:
+  PortUse& use(std::uint32_t node, std::uint16_t number) { return ports_[place_.at(node, number)]; }
+  void add_ports();
   void add_streams();
   void add_rerouted();
   void add_gptp();
@@ -73,7 +77,8 @@ class Usage {
 
   const Resolved& r_;
   std::vector<StreamAtPort> streams_;
-  std::map<std::pair<std::uint32_t, std::uint16_t>, PortUse> ports_;
+  std::vector<PortUse> ports_;
+  PortTable<std::uint32_t> place_;   // of each port in ports_
   std::vector<EgressUse> egress_;
   std::vector<IngressUse> ingress_;
 };

@@ -55,6 +55,7 @@ class Resolver {
     StreamBuilder builder(r_, diagnostics_);
     builder_ = &builder;
     check_names();
+    builder.lay_ahead(r_.scenario.streams);
     for (const Stream& stream : r_.scenario.streams)
       if (is_read(stream)) add_stream(stream);
     check_processing(r_.topology, diagnostics_);
@@ -191,6 +192,8 @@ class Resolver {
     NewStream wanted;
     wanted.name = stream.name;
     wanted.where = stream.where;
+    if (stream.path) wanted.path = &*stream.path;
+    if (stream.redundancy) wanted.redundancy = &*stream.redundancy;
     wanted.from = builder_->host(stream.from, stream.where.at("from"));
     for (std::size_t i = 0; i < stream.to.names.size(); ++i) {
       const json::Place place = stream.to.names.size() == 1 ? stream.where.at("to") : stream.where.at("to", i);
@@ -201,8 +204,6 @@ class Resolver {
     if (!stream.pcp && stream.vlan != 0)
       diagnostics_.error(stream.where.at("vlan"), "a VLAN without a priority", {"\"vlan\" alone", "\"pcp\" too, since the tag carries both"});
     wanted.headers = stream.encapsulation == Encapsulation::udp ? models::ipv4_and_udp_headers : Octets{0};
-    wanted.path = stream.path ? &*stream.path : nullptr;
-    wanted.redundancy = stream.redundancy ? &*stream.redundancy : nullptr;
     check_route(stream);
     models::TalkerSchedule schedule = schedule_of(stream);
     wanted.payload = stream.payload;

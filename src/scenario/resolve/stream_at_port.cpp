@@ -81,6 +81,10 @@ bool begins_after_the_start(const models::NodePlan& node, const models::StreamGa
 
 std::vector<StreamAtPort> streams_at_ports(const Resolved& resolved) {
   std::vector<StreamAtPort> found;
+  std::size_t most = 0;
+  for (const ResolvedStream& stream : resolved.streams)
+    for (const Path& path : stream.paths) most += path.size() - 1;
+  found.reserve(most);
   for_each_stream_at_port(resolved, [&](const StreamAtPort& at) { found.push_back(at); });
   return found;
 }

@@ -24,6 +24,17 @@ std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const 
   return node;
 }
 
+void StreamBuilder::lay_ahead(const std::vector<Stream>& streams) {
+  std::vector<Router::Ends> wanted;
+  for (const Stream& stream : streams) {
+    if (stream.path || stream.redundancy || stream.to.names.size() != 1) continue;
+    const auto from = r_.topology.find(stream.from);
+    const auto to = r_.topology.find(stream.to.names.front());
+    if (from && to && *from != *to) wanted.push_back({*from, *to});
+  }
+  router_.lay_ahead(std::move(wanted));
+}
+
 std::optional<models::StreamIndex> StreamBuilder::add(const NewStream& wanted) {
   const std::size_t errors_before = diagnostics_.errors();
   check_size(wanted);

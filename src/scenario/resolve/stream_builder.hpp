@@ -41,6 +41,8 @@ class StreamBuilder {
 
   /// The host of that name; a mistake is reported at `place`.
   std::optional<std::uint32_t> host(const std::string& name, const json::Place& place);
+  /// Lays the paths of the unicast streams whose ends are known: all at once is quicker than one after the other.
+  void lay_ahead(const std::vector<Stream>& streams);
   /// Adds the stream to the plan. Nothing if it cannot be (reported).
   std::optional<models::StreamIndex> add(const NewStream& wanted);
 

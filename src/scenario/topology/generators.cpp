@@ -15,7 +15,7 @@ namespace {
 using sim::int128;
 using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-constexpr std::uint64_t most_links = 200'000;   // of a random graph; a full mesh of 600 switches has 179'700
+constexpr std::uint64_t most_random_links = 200'000;  // a full mesh of 600 switches has 179'700
 
 /// As many links as a mean degree makes, rounded to whole ones.
 std::uint64_t links_of(std::uint64_t switches, double degree) { return static_cast<std::uint64_t>(degree * static_cast<double>(switches) / 2 + 0.5); }
@@ -61,10 +61,10 @@ class Checker {
     }
     if (n > most_nodes) return;   // reported by their number
     const auto links = links_of(n, *generator_.degree);
-    const std::uint64_t most = std::min(n * (n - 1) / 2, most_links);
+    const std::uint64_t most = std::min(n * (n - 1) / 2, most_random_links);
     // Its switches must hang together, and no two of them are joined twice.
     if (n < 2 || (links + 1 >= n && links <= most)) return;
-    diagnostics_.error(generator_.where.at("degree"), links > most_links ? "too many links" : "no connected graph has this degree",
+    diagnostics_.error(generator_.where.at("degree"), links > most_random_links ? "too many links" : "no connected graph has this degree",
                        {std::to_string(links) + " links between " + std::to_string(n) + " switches", std::to_string(n - 1) + " to " + std::to_string(most) + " links"});
     failed_ = true;
   }

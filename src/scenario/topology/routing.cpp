@@ -67,17 +67,18 @@ const Router::Tree& Router::tree_of(std::uint32_t root) {
   tree.assign(forwarders_.size() + 1, {nowhere, 0});
   const Spot first = spot_of(root, root);
   tree[first] = {first, 0};
-  std::vector<Spot> reached{first};
-  reached.reserve(tree.size());
+  std::vector<Spot> reached(tree.size());   // the first `count` of them
+  std::size_t count = 0;
+  reached[count++] = first;
   const auto reach = [&](Spot to, Spot from) {
     if (tree[to].parent != nowhere) return;
     tree[to] = {from, tree[from].depth + 1};
-    reached.push_back(to);
+    reached[count++] = to;
   };
   if (first == forwarders_.size())
     for (const Neighbour& neighbour : topology_.neighbours[root])
       if (spots_[neighbour.node] != nowhere) reach(spots_[neighbour.node], first);
-  for (std::size_t next = 0; next < reached.size(); ++next)
+  for (std::size_t next = 0; next < count; ++next)
     if (reached[next] < forwarders_.size())
       for (const Spot neighbour : onward_[reached[next]]) reach(neighbour, reached[next]);
   return tree;
@@ -114,7 +115,27 @@ std::optional<Path> Router::between(std::uint32_t root, std::uint32_t leaf) {
   return path;
 }
 
-std::optional<Path> Router::to_host(std::uint32_t from, std::uint32_t to) { return between(to, from); }
+std::optional<Path> Router::to_host(std::uint32_t from, std::uint32_t to) {
+  const auto known = std::ranges::lower_bound(ends_laid_, Ends{from, to});
+  if (known != ends_laid_.end() && *known == Ends{from, to})
+    return laid_[static_cast<std::size_t>(known - ends_laid_.begin())];
+  return between(to, from);
+}
+
+void Router::lay_ahead(std::vector<Ends> wanted) {
+  std::ranges::sort(wanted);
+  wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+  ends_laid_ = std::move(wanted);
+  laid_.resize(ends_laid_.size());
+  std::vector<std::pair<std::uint32_t, std::size_t>> by_root;
+  for (std::size_t i = 0; i < ends_laid_.size(); ++i) by_root.push_back({start_of(ends_laid_[i].second), i});
+  std::ranges::sort(by_root);
+  for (const auto& [root, i] : by_root) {
+    if (!trees_.contains(root)) trees_.clear();
+    laid_[i] = between(ends_laid_[i].second, ends_laid_[i].first);
+  }
+  trees_.clear();
+}
 
 std::optional<Path> Router::from_host(std::uint32_t from, std::uint32_t to) {
   std::optional<Path> path = between(from, to);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scenario/topology/topology.hpp"
@@ -45,6 +46,12 @@ class Router {
   /// The topology has to stay as it is.
   explicit Router(const Topology& topology);
 
+  /// Sender and receiver of a unicast path.
+  using Ends = std::pair<std::uint32_t, std::uint32_t>;
+  /// Lays the paths that to_host() will be asked for, destination by destination: so each tree is made once, and one at
+  /// a time. In any other order a large plant needs more trees than fit into memory.
+  void lay_ahead(std::vector<Ends> wanted);
+
   /// The path that the filtering database takes for the unicast address of `to`: for one destination all paths form a tree.
   std::optional<Path> to_host(std::uint32_t from, std::uint32_t to);
   /// The path to one receiver of a multicast: for one sender all paths form a tree.
@@ -69,6 +76,8 @@ class Router {
   std::vector<std::uint32_t> forwarders_;      // by spot
   std::vector<std::vector<Spot>> onward_;      // by spot: neighbours that forward, in the order of the links
   std::map<std::uint32_t, Tree> trees_;
+  std::vector<Ends> ends_laid_;                // in order
+  std::vector<std::optional<Path>> laid_;      // by their places in ends_laid_
 };
 
 }  // namespace takt::scenario

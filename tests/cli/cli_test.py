@@ -104,6 +104,17 @@ class Help(CliTest):
                 self.assertNotEqual(err, "")
 
 
+class Companions(CliTest):
+    def test_one_of_another_build_refuses(self):
+        """As after half of a build, or half of an installation: two behaviours must not fill one store."""
+        companion = pathlib.Path(TAKT).resolve().parent / "takt-study"
+        for behaviour, status in (("0", 2), (None, 0)):
+            environment = {**os.environ, "TAKT_STARTED_BY_BEHAVIOUR": behaviour} if behaviour else None
+            done = subprocess.run([companion, "study", "--help"], capture_output=True, text=True, env=environment)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertEqual("from another build" in done.stderr, status == 2)
+
+
 class Mistaken(CliTest):
     def test_a_command_that_is_not_there(self):
         for word, meant in (("rnu", "run"), ("chek", "check"), ("Verify", "verify"), ("stduy", "study")):

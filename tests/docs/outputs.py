@@ -154,6 +154,13 @@ class Printer:
         done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, timeout=120, cwd=folder, env=environment)
         return lines_of(done.stdout) or lines_of(done.stderr)
 
+    def run_once(self, command):
+        """What a command prints that needs nothing but the scenarios, as text."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "scenarios").symlink_to(self.source / "scenarios")
+            return "\n".join(self.run(command, folder))
+
     def run_page(self, blocks):
         """What the commands of a page print, by command."""
         files = files_of(blocks)

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 import outputs
+import pictures
 
 TAKT = pathlib.Path()
 SOURCE = pathlib.Path()
@@ -98,6 +99,13 @@ class Pages(unittest.TestCase):
         for page in outputs.pages_of(SOURCE):
             text = page.read_text(encoding="utf-8")
             self.assertEqual(text, outputs.with_figures(text, SOURCE), page.name)
+
+    def test_the_picture_shows_what_is_printed_now(self):
+        printed = outputs.Printer(TAKT, SOURCE).run_once(pictures.COMMAND)
+        drawn = (SOURCE / pictures.NAME).read_text(encoding="utf-8")
+        self.assertEqual(drawn, pictures.draw(printed), "If that is meant: tests/docs/renew.py FOLDER_OF_TAKT")
+        self.assertEqual(drawn.count("<title>bound"), 6)
+        self.assertIn("reaction start within 12ms", drawn)
 
     def test_outputs_are_what_is_printed_now(self):
         printer = outputs.Printer(TAKT, SOURCE)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renews every block of the pages that shows what takt prints, after a change that is meant to change it.
+"""Renews every block of the pages that shows what takt prints, and the picture of the README, after a change that is meant to change it.
 
 usage: renew.py BUILD_FOLDER [PAGE...]
 
@@ -9,6 +9,7 @@ import pathlib
 import sys
 
 import outputs
+import pictures
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -23,6 +24,8 @@ def main():
         if not wanted or page in wanted:
             blocks = outputs.blocks_of(page)
             left += outputs.renew(page, blocks, printer.run_page(blocks), ROOT)
+    if not wanted:
+        (ROOT / pictures.NAME).write_text(pictures.draw(printer.run_once(pictures.COMMAND)), encoding="utf-8")
     if left:
         sys.exit("\n\n".join(["to be mended by hand:", *left]))
 

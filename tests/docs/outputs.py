@@ -25,7 +25,7 @@ import tempfile
 
 MARKER = re.compile(r"<!-- (output of|excerpt of|not held here|no output|file): (\S.*) -->")
 # Lines of a block that lists commands and what each is for. A measured time behind a command would be output.
-COMMAND_LINE = re.compile(r"(sudo )?(takt|tools/\w+|cmake|sbatch) |\(umask | ")
+COMMAND_LINE = re.compile(r"(sudo )?(takt|tools/\w+|cmake|sbatch|apt) |\(umask | ")
 FIGURE = re.compile(r"\s{2,}.*\b\d[\d.]* ?(ps|ns|us|ms|s|%)(?!\w)")
 LEFT_OUT = "..."
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The documentation: every command in it is one that takt takes, cheap ones are run; tools/docs makes pages of it.
+"""The documentation: every command in it is one that takt takes, cheap ones are run.
 
 usage: pages_test.py TAKT SOURCE_FOLDER [unittest options]
 """
@@ -8,7 +8,6 @@ import os
 import pathlib
 import re
 import shlex
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -44,8 +43,13 @@ INSTANCE = json.dumps({
 TOPOLOGY = json.dumps({"nodes": [{"id": name, "is_switch": name == "s", "processing_delay_ns": 4000, "fwd_header_b": 24} for name in "abs"],
                        "links": [{"key": x + y, "source": x, "target": y, "link_speed_mbps": 1000} for x, y in ("as", "sa", "bs", "sb")]})
 STREAMS = json.dumps({"x": {"sources": ["a"], "destinations": ["b"], "cycle_time_ns": 100_000, "frame_size_b": 200, "max_latency_ns": 50_000, "deadline_ns": None, "redundancy": 1}})
+CABLE = ('<graphml><key id="kind" for="node" attr.name="kind"/><graph edgedefault="undirected">'
+         '<node id="sw1"><data key="kind">switch</data></node>'
+         '<node id="plc"/><node id="drive"/><node id="camera"/><edge source="plc" target="sw1"/>'
+         '<edge source="drive" target="sw1"/><edge source="camera" target="sw1"/></graph></graphml>')
 # Files that pages take as there, by page: a text, or a path in the repository.
 FILES = {
+    "i-want-to.md": {"plant.graphml": CABLE},
     "interchange.md": {"plant.json": INSTANCE},
     "schedules.md": {"plant.json": INSTANCE, "instance.json": INSTANCE, "new.json": json.dumps({"streams": [{"name": "axis-8", "talker": "b", "listeners": ["a"], "octets": 200, "period": 1_000_000_000}]}),
                      "ring.top": TOPOLOGY, "set1.pat": STREAMS, "set2.pat": STREAMS,
@@ -172,15 +176,6 @@ class Pages(unittest.TestCase):
         for page in pages():
             for line in page.read_text(encoding="utf-8").splitlines():
                 self.assertNotRegex(line, r"^\s*(\./)?build/release/takt ", page)
-
-    @unittest.skipUnless(shutil.which("mkdocs"), "mkdocs is not installed")
-    def test_pages_with_search(self):
-        with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([SOURCE / "tools" / "docs", folder], check=True, capture_output=True, timeout=300)
-            index = json.loads((pathlib.Path(folder) / "search" / "search_index.json").read_text(encoding="utf-8"))
-            self.assertTrue(any("reaction" in entry["text"] for entry in index["docs"]))
-            for page in (SOURCE / "docs").rglob("*.md"):
-                self.assertTrue((pathlib.Path(folder) / page.relative_to(SOURCE / "docs")).with_suffix(".html").exists(), page)
 
 
 if __name__ == "__main__":

@@ -43,13 +43,13 @@ INSTANCE = json.dumps({
 TOPOLOGY = json.dumps({"nodes": [{"id": name, "is_switch": name == "s", "processing_delay_ns": 4000, "fwd_header_b": 24} for name in "abs"],
                        "links": [{"key": x + y, "source": x, "target": y, "link_speed_mbps": 1000} for x, y in ("as", "sa", "bs", "sb")]})
 STREAMS = json.dumps({"x": {"sources": ["a"], "destinations": ["b"], "cycle_time_ns": 100_000, "frame_size_b": 200, "max_latency_ns": 50_000, "deadline_ns": None, "redundancy": 1}})
-CABLE = ('<graphml><key id="kind" for="node" attr.name="kind"/><graph edgedefault="undirected">'
-         '<node id="sw1"><data key="kind">switch</data></node>'
-         '<node id="plc"/><node id="drive"/><node id="camera"/><edge source="plc" target="sw1"/>'
-         '<edge source="drive" target="sw1"/><edge source="camera" target="sw1"/></graph></graphml>')
+NODES = (("sw1", "switch"), ("plc", "host"), ("drive", "host"), ("camera", "host"))
+CABLES = ('<graphml><key id="kind" for="node" attr.name="kind"/><graph edgedefault="undirected">'
+          + "".join(f'<node id="{name}"><data key="kind">{kind}</data></node>' for name, kind in NODES)
+          + "".join(f'<edge source="{name}" target="sw1"/>' for name, _ in NODES[1:]) + "</graph></graphml>")
 # Files that pages take as there, by page: a text, or a path in the repository.
 FILES = {
-    "i-want-to.md": {"plant.graphml": CABLE},
+    "i-want-to.md": {"plant.graphml": CABLES},
     "interchange.md": {"plant.json": INSTANCE},
     "schedules.md": {"plant.json": INSTANCE, "instance.json": INSTANCE, "new.json": json.dumps({"streams": [{"name": "axis-8", "talker": "b", "listeners": ["a"], "octets": 200, "period": 1_000_000_000}]}),
                      "ring.top": TOPOLOGY, "set1.pat": STREAMS, "set2.pat": STREAMS,

@@ -19,7 +19,8 @@ std::vector<fs::path> pages() {
   for (const char* const folder : {"docs", "sim", "models", "src", "tests", "tools", "scenarios"})
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder))
       if (entry.path().extension() == ".md") found.push_back(entry.path());
-  for (const char* const page : {"README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "MAINTAINERS.md"}) found.push_back(root / page);
+  for (const fs::directory_entry& entry : fs::directory_iterator(root))
+    if (entry.path().extension() == ".md") found.push_back(entry.path());
   return found;
 }
 

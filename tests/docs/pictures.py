@@ -9,9 +9,11 @@ import xml.sax.saxutils
 NAME = pathlib.PurePosixPath("docs/pictures/verdict.svg")
 COMMAND = "takt verify scenarios/robot-arm.json --budget 20 --format json"
 LEFT, WIDTH, ROW, TOP = 250, 420, 44, 62
-KINDS = (("bound_ps", "#c9d7e8", 22, "bound: no run can exceed it"), ("adversarial_ps", "#6f9bd1", 14, "worst run found"),
+KINDS = (("bound_ps", "#c9d7e8", 22, "bound: no run can exceed it"),
+         ("adversarial_ps", "#6f9bd1", 14, "worst run found"),
          ("simulated_ps", "#1f4e8c", 6, "simulated"))
-STYLE = "text{font:12px system-ui,sans-serif;fill:#333}.small{font-size:11px;fill:#555}.title{font-weight:600;font-size:13px}"
+STYLE = ("text{font:12px system-ui,sans-serif;fill:#333}.small{font-size:11px;fill:#555}"
+         ".title{font-weight:600;font-size:13px}")
 
 
 def readable(picoseconds):
@@ -41,8 +43,9 @@ def draw(printed):
     lines = rows(verification)
     height = TOP + ROW * len(lines) + 58
     title = f"{verification['scenario']}: simulated, worst found and bound, as parts of the limit"
-    svg = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 830 {height}" width="830" height="{height}" role="img" aria-label="{title}">',
-           f"<style>{STYLE}</style>", f'<rect width="830" height="{height}" fill="#fff"/>', text(14, 24, title, ' class="title"')]
+    svg = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 830 {height}" width="830" height="{height}"'
+           f' role="img" aria-label="{title}">', f"<style>{STYLE}</style>",
+           f'<rect width="830" height="{height}" fill="#fff"/>', text(14, 24, title, ' class="title"')]
     for at, each in enumerate(lines):
         middle = TOP + ROW * at + ROW // 2
         figures = ", ".join(readable(each[key]) for key, *_ in reversed(KINDS))
@@ -50,8 +53,8 @@ def draw(printed):
         svg.append(text(14, middle + 13, f"{figures} of {readable(each['limit_ps'])}", ' class="small"'))
         for key, colour, thickness, name in KINDS:
             length = each[key] * WIDTH // each["limit_ps"]
-            svg.append(f'<rect x="{LEFT + 60}" y="{middle - thickness // 2}" width="{length}" height="{thickness}" fill="{colour}">'
-                       f"<title>{name}: {readable(each[key])}</title></rect>")
+            svg.append(f'<rect x="{LEFT + 60}" y="{middle - thickness // 2}" width="{length}" height="{thickness}"'
+                       f' fill="{colour}"><title>{name}: {readable(each[key])}</title></rect>')
         svg.append(text(LEFT + WIDTH + 70, middle + 4, each["verdict"]))
     end = TOP + ROW * len(lines)
     limit = LEFT + 60 + WIDTH

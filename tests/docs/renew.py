@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Renews every block of the pages that shows what takt prints, and the picture of the README, after a change that is meant to change it.
+"""Renews every block of the pages that shows what takt prints, and the picture of the README.
+
+For a change that is meant to change them.
 
 usage: renew.py BUILD_FOLDER [PAGE...]
 

@@ -68,7 +68,7 @@ class Site(unittest.TestCase):
         self.assertFalse(out.exists())
 
     def test_broken_links_are_refused(self):
-        self.refused("nowhere.md", limits="# Limits\n\n[x](nowhere.md)\n")
+        self.refused("nowhere.md", limits="Limits\n\n[x](nowhere.md)\n")
         self.refused("docs/limits.html#none", limits="# Limits\n\n## Some\n")
 
     def test_a_page_outside_of_the_navigation_is_refused(self):

@@ -52,11 +52,11 @@ TEST(RunPage, SaysTheVerdictAndShowsEachRequirementAndEachKindOfReaction) {
   for (const results::RequirementResult& requirement : made.result.requirements) EXPECT_NE(made.page.find(requirement.text), std::string::npos) << requirement.text;
   const auto sequences = made.replay->sequences();
   ASSERT_EQ(sequences.size(), 4u) << "start, suspend, resume, halt";
-  // Suspended by the robot at 4.00007 s; the generator hears it 163.103 us later (README.md) by the message that arrives then.
+  // Suspended by the robot at 4.00007 s. The generator receives it 163.103 us later (docs/results.md).
   const chart::SequenceChart& suspend = sequences[1];
   ASSERT_EQ(suspend.steps.size(), 2u);
   EXPECT_EQ(suspend.steps[0].text, "called: Suspended");
-  EXPECT_EQ(suspend.steps[1].time - suspend.steps[0].time, 163'103'000) << "README.md: +163.103 us";
+  EXPECT_EQ(suspend.steps[1].time - suspend.steps[0].time, 163'103'000) << "docs/results.md: +163.103 us";
   ASSERT_FALSE(suspend.messages.empty());
   EXPECT_EQ(suspend.messages[0].from, 1u);
   EXPECT_EQ(suspend.messages[0].received, suspend.steps[1].time);

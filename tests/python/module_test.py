@@ -6,6 +6,7 @@ usage: PYTHONPATH=build/release/python module_test.py TAKT SOURCE_FOLDER [unitte
 import json
 import os
 import pathlib
+import re
 import signal
 import sqlite3
 import subprocess
@@ -296,6 +297,18 @@ class Manners(unittest.TestCase):
             for member in vars(thing) if isinstance(thing, type) and thing.__module__ == "takt" else ():
                 if not member.startswith("_"):
                     self.assertRegex(stubs, rf"(def {member}\b|{member}:)", f"{name}.{member}")
+
+
+class Page(unittest.TestCase):
+    def test_the_example_of_the_tasks_prints_what_its_comments_say(self):
+        """The block of Python in docs/i-want-to.md, in the root of the sources."""
+        page = (SCENARIOS.parent / "docs" / "i-want-to.md").read_text(encoding="utf-8")
+        code = re.search(r"^```python\n(import takt\n.*?)^```", page, re.M | re.S)[1].replace("jobs=4", "jobs=2")
+        said = re.findall(r"# (\S+)$", code, re.M)
+        done = subprocess.run([sys.executable, "-c", code + "print(len(table))"], capture_output=True, text=True, check=False,
+                              timeout=1000, cwd=SCENARIOS.parent)
+        self.assertEqual(done.stdout.split(), [*said, "300"], done.stderr)
+        self.assertEqual(len(said), 3)
 
 
 if __name__ == "__main__":

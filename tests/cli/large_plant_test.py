@@ -30,8 +30,8 @@ def plant(out):
     streams = []
     for h in range(hosts):
         to = (h + 1 + draw.randrange(hosts - 1)) % hosts
-        streams.append(f'{{"name": "s{h + 1}", "from": "h{h + 1}", "to": "h{to + 1}", "payload": "200B", "every": "1ms", '
-                       f'"offset": "{h * 7919 % 1_000_000}ns"}}')
+        streams.append(f'{{"name": "s{h + 1}", "from": "h{h + 1}", "to": "h{to + 1}", "payload": "200B", '
+                       f'"every": "1ms", "offset": "{h * 7919 % 1_000_000}ns"}}')
     out.write('{"name": "plant", "duration": "1ms", "network": {"nodes": {\n' + ",\n".join(nodes) + '},\n"links": [\n')
     out.write(",\n".join(links) + ']},\n"streams": [\n' + ",\n".join(streams) + "]}\n")
 

@@ -305,8 +305,8 @@ class Page(unittest.TestCase):
         page = (SCENARIOS.parent / "docs" / "i-want-to.md").read_text(encoding="utf-8")
         code = re.search(r"^```python\n(import takt\n.*?)^```", page, re.M | re.S)[1].replace("jobs=4", "jobs=2")
         said = re.findall(r"# (\S+)$", code, re.M)
-        done = subprocess.run([sys.executable, "-c", code + "print(len(table))"], capture_output=True, text=True, check=False,
-                              timeout=1000, cwd=SCENARIOS.parent)
+        done = subprocess.run([sys.executable, "-c", code + "print(len(table))"], capture_output=True, text=True,
+                              check=False, timeout=1000, cwd=SCENARIOS.parent)
         self.assertEqual(done.stdout.split(), [*said, "300"], done.stderr)
         self.assertEqual(len(said), 3)
 

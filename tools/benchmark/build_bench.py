@@ -1,4 +1,4 @@
-"""What it costs to build takt from nothing and after an edit, as a ratio to the compilation of one fixed file in the same run.
+"""What it costs to build takt from nothing and after an edit, as a ratio to one fixed file compiled in the same run.
 
 Processors and compilers differ by machine (the same tree took 5 and 16 CPU minutes on two of them), the ratio does not.
 """
@@ -14,7 +14,8 @@ REFERENCE = pathlib.Path(__file__).resolve().parent / "reference.cpp"
 # A build without a compiler cache, whatever the machine has.
 ENVIRONMENT = {**os.environ, "CCACHE_DISABLE": "1"}
 # After an edit of one of these: takt again.
-EDITS = ["src/analysis/bounds.cpp", "models/egress/egress_port.cpp", "src/cli/run_command.cpp", "src/scenario/description/description.hpp"]
+EDITS = ["src/analysis/bounds.cpp", "models/egress/egress_port.cpp", "src/cli/run_command.cpp",
+         "src/scenario/description/description.hpp"]
 
 
 def timed(command, folder):
@@ -35,7 +36,8 @@ def run(root, committed, short):
         references = []
 
         def reference():
-            references.append(timed(["c++", "-std=c++20", "-O2", "-c", REFERENCE, "-o", folder / "reference.o"], folder)[0])
+            compile_reference = ["c++", "-std=c++20", "-O2", "-c", REFERENCE, "-o", folder / "reference.o"]
+            references.append(timed(compile_reference, folder)[0])
 
         def built(target):
             reference()
@@ -44,8 +46,11 @@ def run(root, committed, short):
             return cpu, wall
 
         # The sources are copied, so that edits touch no file of the user.
-        subprocess.run(f"git -C '{root}' ls-files -z -co --exclude-standard | tar -C '{root}' --null -T - --ignore-failed-read -cf - | tar -C '{folder}' --one-top-level=takt -xf -", shell=True, check=True)
-        timed(["cmake", "-S", folder / "takt", "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DTAKT_TESTS=OFF"], folder)
+        subprocess.run(f"git -C '{root}' ls-files -z -co --exclude-standard"
+                       f" | tar -C '{root}' --null -T - --ignore-failed-read -cf -"
+                       f" | tar -C '{folder}' --one-top-level=takt -xf -", shell=True, check=True)
+        timed(["cmake", "-S", folder / "takt", "-B", folder / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+               "-DTAKT_TESTS=OFF"], folder)
         figures = {"core": built("takt")}
         if not short:
             figures["everything"] = tuple(a + b for a, b in zip(figures["core"], built("all")))
@@ -55,7 +60,8 @@ def run(root, committed, short):
             timed(["cmake", folder / "build", "-DTAKT_TESTS=ON"], folder)
             figures["with tests"] = tuple(a + b for a, b in zip(figures["everything"], built("all")))
         unit = statistics.median(references)
-        print(f"reference: {unit:.2f} CPU s in the median of {len(references)} ({min(references):.2f} to {max(references):.2f})\n")
+        print(f"reference: {unit:.2f} CPU s in the median of {len(references)}"
+              f" ({min(references):.2f} to {max(references):.2f})\n")
         print(f"{'built':<52} {'CPU s':>7} {'wall s':>7} {'ratio':>7} {'committed':>10}")
         for name, (cpu, wall) in figures.items():
             known = committed.get(name.replace(" ", "_"))

@@ -46,7 +46,9 @@ def instructions_per_hop(program, workload):
     counts = []
     for arguments in WORKLOADS[workload]:
         try:
-            done = subprocess.run(["valgrind", "--tool=callgrind", f"--toggle-collect={LOOP}", "--callgrind-out-file=/dev/null", program, *arguments], capture_output=True, text=True)
+            done = subprocess.run(["valgrind", "--tool=callgrind", f"--toggle-collect={LOOP}",
+                                   "--callgrind-out-file=/dev/null", program, *arguments],
+                                  capture_output=True, text=True)
         except FileNotFoundError:
             return None
         found = re.search(r"Collected : (\d+)", done.stderr)

@@ -55,7 +55,6 @@ class Resolver {
     StreamBuilder builder(r_, diagnostics_);
     builder_ = &builder;
     check_names();
-    builder.lay_ahead(r_.scenario.streams);
     for (const Stream& stream : r_.scenario.streams)
       if (is_read(stream)) add_stream(stream);
     check_processing(r_.topology, diagnostics_);

@@ -24,9 +24,9 @@ std::optional<std::uint32_t> StreamBuilder::host(const std::string& name, const 
   return node;
 }
 
-void StreamBuilder::lay_ahead(const std::vector<Stream>& streams) {
+void StreamBuilder::lay_unicast_paths() {
   std::vector<Router::Ends> wanted;
-  for (const Stream& stream : streams) {
+  for (const Stream& stream : r_.scenario.streams) {
     if (stream.path || stream.redundancy || stream.to.names.size() != 1) continue;
     const auto from = r_.topology.find(stream.from);
     const auto to = r_.topology.find(stream.to.names.front());

@@ -37,12 +37,11 @@ class StreamBuilder {
  public:
   StreamBuilder(Resolved& resolved, json::Diagnostics& diagnostics) : r_(resolved), diagnostics_(diagnostics), router_(resolved.topology) {
     note_identified_streams();
+    lay_unicast_paths();
   }
 
   /// The host of that name; a mistake is reported at `place`.
   std::optional<std::uint32_t> host(const std::string& name, const json::Place& place);
-  /// Lays the paths of the unicast streams whose ends are known: all at once is quicker than one after the other.
-  void lay_ahead(const std::vector<Stream>& streams);
   /// Adds the stream to the plan. Nothing if it cannot be (reported).
   std::optional<models::StreamIndex> add(const NewStream& wanted);
 
@@ -61,6 +60,8 @@ class StreamBuilder {
   void add_members(const NewStream& wanted, const MemberPaths& members, models::StreamIndex index);
   void add_entry(std::uint32_t node, std::uint16_t port, models::VlanId vlan, models::AddressIndex address);
   void note_identified_streams();
+  /// Of the streams whose ends are known: all at once is quicker than one after the other.
+  void lay_unicast_paths();
   void add_filtering(const Path& path, models::VlanId vlan, models::AddressIndex address);
 
   Resolved& r_;

@@ -6,7 +6,7 @@
 
 #include "../ask.hpp"
 #include "explore/model/forgery.hpp"
-#include "support/case_count.hpp"
+#include "tests/support/case_count.hpp"
 
 namespace takt::explore {
 namespace {

@@ -87,6 +87,21 @@ class Questions(unittest.TestCase):
             takt.explore(1, fault="loss")
 
 
+class Missing(unittest.TestCase):
+    def test_the_compiled_part(self):
+        """As where pybind11 was not installed when takt was built: the import says what to do."""
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(folder) / "takt"
+            package.mkdir()
+            for file in (SCENARIOS.parent / "src/python/takt").iterdir():
+                (package / file.name).write_bytes(file.read_bytes())
+            environment = {**os.environ, "PYTHONPATH": folder}
+            done = subprocess.run([sys.executable, "-c", "import takt"], capture_output=True, text=True, check=False,
+                                  env=environment)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("pybind11-dev", done.stderr.splitlines()[-1])
+
+
 class SameAnswers(unittest.TestCase):
     def test_a_run_is_that_of_the_command(self):
         for name in ("robot-arm", "three-slaves-star", "redundant-ring"):

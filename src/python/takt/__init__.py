@@ -14,7 +14,13 @@ import json as _json
 import os as _os
 import warnings as _warnings
 
-from . import _takt
+try:
+    from . import _takt
+except ImportError as _error:
+    raise ImportError(
+        "takt: the compiled part of the module, _takt, is not there for this Python. It is built with pybind11-dev and "
+        "python3-dev for the Python of the system: tools/setup more, then tools/run. Or install python3-takt"
+    ) from _error
 from ._takt import Mistake
 from .records import Record
 

@@ -477,7 +477,7 @@ class Signals(CliTest):
         controller, terminal = pty.openpty()
         process = self.start(stdout=subprocess.DEVNULL, stderr=terminal)
         os.close(terminal)
-        bar = re.compile(r"\[.{30}\] +\d+\.\d % ")
+        bar = re.compile(r"\[[=> ]{6,30}\] +\d+\.\d % ")   # the longer the figures behind it, the shorter
         drawn = b""
         while not bar.search(drawn.decode(errors="replace")):
             drawn += os.read(controller, 65536)

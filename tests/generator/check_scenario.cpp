@@ -72,6 +72,7 @@ class Checks {
 
  private:
   void check(const char* name, const std::function<void()>& what) {
+    if (!options_.only.empty() && options_.only != name && std::string_view(name) != "run") return;
     checked_.done.emplace_back(name);
     present_ = name;
     try {
@@ -299,9 +300,9 @@ class Checks {
   /// A scenario with another path, since several are as short, is another one.
   void orders(const std::string& text) {
     const std::map<std::string, Ordered> wanted = ordered_bounds(r_);
-    // Nodes and links in another order are another network here: ports get other numbers, and frames of one instant are
-    // served by port. The metamorphic test holds those where that does not matter.
-    for (const property::Twin& twin : {property::with_other_streams(text, digest_)}) {
+    for (const property::Twin& twin :
+         {property::with_other_streams(text, digest_), property::with_other_nodes(text, digest_),
+          property::with_other_links(text, digest_)}) {
       json::Diagnostics diagnostics;
       const auto other = twin.text.empty() ? nullptr : scenario::load_text(twin.text, file_, {}, diagnostics);
       if (other == nullptr) continue;
@@ -326,8 +327,7 @@ class Checks {
     for (const analysis::StreamBound& bound : analysis::bound(resolved).streams) {
       Ordered& made = all[bound.name];
       made.latency = bound.latency;
-      for (const scenario::Path& path : resolved.streams[bound.index.value].paths)
-        for (const std::uint32_t node : path) made.paths.push_back(resolved.plan.nodes[node].name);
+      made.paths = property::passed_by(resolved, resolved.streams[bound.index.value]);
     }
     return all;
   }

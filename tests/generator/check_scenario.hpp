@@ -10,7 +10,7 @@
 //   clocks     what passes of clocks is so at every look, whomever they follow; nothing passes that two grandmasters show; no gate keeps gPTP waiting for ever
 //   bound      no run exceeds a bound
 //   phases     nor does the run of a study, whose phases the seed draws where nobody gives them
-//   order      bounds are the same with streams in another order in the file
+//   order      bounds are the same with streams, nodes and links in another order in the file
 //   verify     contradicts neither itself nor a run, and its worst runs can be replayed
 #pragma once
 
@@ -36,6 +36,7 @@ struct Checked {
 struct CheckOptions {
   std::uint64_t verify_events = 300'000;  ///< what the search of `verify` may cost; 0: it is left out
   std::uint64_t most_states = 20'000;     ///< to explore for the invariants of Programs
+  std::string only;                       ///< the name of a check, which is all that is done beside "run"; empty: all
 };
 
 /// `file` is the name that the text has: traces are looked for beside it.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -32,7 +33,7 @@ namespace fs = std::filesystem;
 constexpr const char* usage =
     "Makes random scenarios of every feature, runs and verifies each, and shrinks what is wrong to a small scenario.\n"
     "\n"
-    "  takt_soak [--hours H] [--count N] [--first N] [--jobs N] [--folder DIR] [--build NAME]\n"
+    "  takt_soak [--hours H] [--count N] [--first N] [--jobs N] [--folder DIR] [--build NAME] [--only CHECK]\n"
     "  takt_soak --against PROGRAM [--recordings] [--hours H] [--count N] [--first N] [--jobs N] [--folder DIR]\n"
     "                                    runs each (2,000) by this build and by another one, whose takt or takt_digest PROGRAM is, and\n"
     "                                    compares digests, or with --recordings frames.csv and hops.csv, sorted by time and node\n"
@@ -56,6 +57,7 @@ struct Options {
   std::optional<std::uint64_t> show;
   std::string shrink;
   std::string against;
+  std::string only;   // a check
   bool recordings = false;
   std::vector<std::string> files;
 };
@@ -153,10 +155,10 @@ std::vector<Finding> findings_of(const study::Answer& answer, bool* repaired = n
 }
 
 /// Checks a text in a process of its own.
-std::vector<Finding> check_apart(const std::string& text, const std::string& file) {
+std::vector<Finding> check_apart(const std::string& text, const std::string& file, const std::string& only = {}) {
   std::vector<Finding> findings;
   bool is_asked = false;
-  study::Pool pool(1, limits, [&](std::uint64_t) { return answer_of(check_scenario(text, file), false, {}); });
+  study::Pool pool(1, limits, [&](std::uint64_t) { return answer_of(check_scenario(text, file, {.only = only}), false, {}); });
   pool.run([&]() -> std::optional<std::uint64_t> { return std::exchange(is_asked, true) ? std::nullopt : std::optional<std::uint64_t>(0); },
            [&](std::uint64_t, const study::Answer& answer) {
              findings = findings_of(answer);
@@ -169,9 +171,11 @@ std::vector<Finding> check_apart(const std::string& text, const std::string& fil
 /// The least text that fails the check, and what it says then.
 std::pair<std::string, std::string> shrunk(const std::string& text, const std::string& file, const std::string& check) {
   std::string message;
+  constexpr std::array of_all = {"load", "generator", "crash", "hang", "memory"};
+  const std::string alone = std::ranges::count(of_all, check) > 0 ? "" : check;
   const std::string least = shrink(text, [&](const std::string& candidate) {
     if (interrupted != 0) return false;
-    for (const Finding& each : check_apart(candidate, file)) {
+    for (const Finding& each : check_apart(candidate, file, alone)) {
       if (each.check != check) continue;
       message = each.message;
       return true;
@@ -188,9 +192,9 @@ class Soak {
   int run() {
     const std::uint64_t end = state_.done + options_.count;
     std::uint64_t handed_out = state_.done;
-    study::Pool pool(options_.jobs, limits, [](std::uint64_t number) {
+    study::Pool pool(options_.jobs, limits, [this](std::uint64_t number) {
       const Generated made = generate(number);
-      return answer_of(made.resolved ? check_scenario(made.text, file_name()) : Checked(), !made.first_refusal.empty(), made.problem);
+      return answer_of(made.resolved ? check_scenario(made.text, file_name(), {.only = options_.only}) : Checked(), !made.first_refusal.empty(), made.problem);
     });
     const std::string problem = pool.run(
         [&]() -> std::optional<std::uint64_t> {
@@ -326,6 +330,7 @@ int run(const std::vector<std::string>& arguments) {
     else if (key == "--folder") options.folder = value;
     else if (key == "--build") options.build = value;
     else if (key == "--against") options.against = value;
+    else if (key == "--only") options.only = value;
     else if (key == "--shrink") options.shrink = value;
     else if (key == "--show") options.show = std::stoull(value);
     else throw std::invalid_argument("unknown option " + key);

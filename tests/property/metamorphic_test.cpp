@@ -43,8 +43,7 @@ std::map<std::string, Seen> bounds_of(const Resolved& resolved) {
                   {"by total flows", ps_of(stream.total_flow)},
                   {"by separated flows", ps_of(stream.separated_flow)},
                   {"shortest", stream.least.ps()}};
-    for (const scenario::Path& path : resolved.streams[stream.index.value].paths)
-      for (const std::uint32_t node : path) seen.path.push_back(resolved.plan.nodes[node].name);
+    seen.path = passed_by(resolved, resolved.streams[stream.index.value]);
   }
   return all;
 }

@@ -80,6 +80,19 @@ bool change_texts(Json& value, const std::function<bool(std::string&)>& change) 
   return true;
 }
 
+/// Its ends as they are written, since a port that has a number is another one; what takes time on it.
+std::string words_of(const scenario::Resolved& resolved, std::size_t number) {
+  const models::LinkPlan& link = resolved.plan.links[number];
+  std::vector<std::string> ends;
+  if (number < resolved.scenario.network.links.size())
+    ends = resolved.scenario.network.links[number].ends;  // those of generators follow
+  else
+    ends = {resolved.plan.nodes[link.a.node.value].name, resolved.plan.nodes[link.b.node.value].name};
+  std::ranges::sort(ends);
+  return ends.front() + " - " + ends.back() + ", " + std::to_string(link.rate.bits_per_second) + " b/s, " +
+         std::to_string(link.delay.ps()) + " ps";
+}
+
 bool is_switch(const Json& node) { return node.value("kind", "") == "switch"; }
 
 }  // namespace
@@ -186,6 +199,23 @@ Twin ten_times_slower(const std::string& text) {
     return true;
   });
   return is_possible ? Twin{twin.dump(), {}, 10} : Twin{};
+}
+
+std::vector<std::string> passed_by(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream) {
+  std::vector<std::string> passed;
+  for (const scenario::Path& path : stream.paths)
+    for (std::size_t at = 0; at < path.size(); ++at) {
+      passed.push_back(resolved.plan.nodes[path[at]].name);
+      if (at + 1 == path.size()) continue;
+      const std::uint16_t port = scenario::port_out(resolved.topology, path, at);
+      const auto starts_here = [&](const models::LinkPlan& link) {
+        return (link.a.node.value == path[at] && link.a.port == port) ||
+               (link.b.node.value == path[at] && link.b.port == port);
+      };
+      const auto link = std::ranges::find_if(resolved.plan.links, starts_here);
+      passed.push_back(words_of(resolved, static_cast<std::size_t>(link - resolved.plan.links.begin())));
+    }
+  return passed;
 }
 
 std::string without_ties_and_chance(const std::string& text, std::uint64_t seed) {

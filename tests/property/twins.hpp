@@ -6,6 +6,9 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
+
+#include "scenario/resolve/resolved.hpp"
 
 namespace takt::property {
 
@@ -25,6 +28,10 @@ Twin with_other_streams(const std::string& text, std::uint64_t seed);  ///< in a
 Twin with_other_nodes(const std::string& text, std::uint64_t seed);
 Twin with_other_links(const std::string& text, std::uint64_t seed);  ///< and their ends
 Twin ten_times_slower(const std::string& text);                      ///< all times times ten, all rates a tenth
+
+/// Nodes and links that a stream passes, in words that rest on no order in the file. Of several links between two nodes
+/// the first in the file is taken: a twin with other links may use another one, and is another scenario then.
+std::vector<std::string> passed_by(const scenario::Resolved& resolved, const scenario::ResolvedStream& stream);
 
 /// Every stream that gives no offset, or a rough one, gets one to the picosecond, so that no two frames meet at one
 /// instant: which of them goes first rests on the order of the ports. What is left to chance becomes periodic, since

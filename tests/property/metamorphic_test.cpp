@@ -220,6 +220,27 @@ TEST(Metamorphic, TheOrderOfTheStreamsOfTheFinding) {
   EXPECT_EQ(tally.twins, 30u);
 }
 
+// Of two links between the same switches the first in the file is taken. Another order is another path then, by a cable
+// of 100 m (500 ns) instead of the default 50 ns: what is compared says so, and run and bound are 450 ns longer.
+TEST(Metamorphic, OfParallelLinksTheFirstIsAnotherPath) {
+  const std::string head = R"({"name": "t", "duration": "10ms", "network": {"nodes": {"s0": {"kind": "switch"},
+    "s1": {"kind": "switch"}, "a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"}}, "links": [)";
+  const std::string tail = R"(, {"ends": ["a", "s0"]}, {"ends": ["s1", "b"]}]},
+    "streams": [{"name": "x", "from": "a", "to": "b", "payload": "200B", "every": "1ms"}]})";
+  const std::string near = R"({"ends": ["s0", "s1"], "delay": "50ns"})";
+  const std::string far = R"({"ends": ["s0:40", "s1:40"], "length": "100m"})";
+  std::map<std::string, Seen> by_near, by_far;
+  for (const auto& [text, seen] : {std::pair(head + near + ", " + far + tail, &by_near), std::pair(head + far + ", " + near + tail, &by_far)}) {
+    const auto resolved = scenario::test::sound(text);
+    *seen = bounds_of(*resolved);
+    add_run(*resolved, *seen);
+    EXPECT_GE(seen->at("x").bound.at("longest"), seen->at("x").run.at("greatest"));
+  }
+  EXPECT_NE(by_near.at("x").path, by_far.at("x").path);
+  EXPECT_EQ(by_far.at("x").bound.at("longest"), by_near.at("x").bound.at("longest") + 450'000);
+  EXPECT_EQ(by_far.at("x").run.at("greatest"), by_near.at("x").run.at("greatest") + 450'000);
+}
+
 // A twin that does not behave alike is caught.
 TEST(Metamorphic, CatchesWhatCounts) {
   const std::string text = random_text(0);

@@ -18,11 +18,12 @@ std::string in_ns(sim::Duration offset) {
 
 }  // namespace
 
-ClockSeries::ClockSeries(const models::Network& network, std::string path) : network_(&network), file_(std::move(path)) {
+ClockSeries::ClockSeries(const models::Network& network, std::string path, sim::TrueTime from, sim::TrueTime to) : network_(&network), file_(std::move(path)), from_(from), to_(to) {
   file_.write("time_s,node,grandmaster,offset_ns,true_offset_ns\n");
 }
 
 void ClockSeries::sample(const scenario::ClockSample& sample) {
+  if (sample.time < from_ || sample.time > to_) return;
   const std::vector<models::NodePlan>& nodes = network_->plan().nodes;
   const std::int64_t at = sample.time.ps();
   file_.write(fmt::format("{}.{:012},{},{},{},{}\n", at / 1'000'000'000'000, at % 1'000'000'000'000, csv_field(nodes[sample.node.value].name), csv_field(nodes[sample.grandmaster.value].name),

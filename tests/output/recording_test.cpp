@@ -113,6 +113,14 @@ TEST(Recording, OffsetsOfClocksAreFromTheGrandmasterAndFromTrueTime) {
             "time_s,node,grandmaster,offset_ns,true_offset_ns\n"
             "0.010000000000,a,a,0.000,100.000\n0.010000000000,b,b,0.000,-99.001\n"
             "0.020000000000,a,a,0.000,200.000\n0.020000000000,b,b,0.000,-199.001\n");
+  // Of a stretch of time its looks alone, both ends included.
+  options.from = "11ms";
+  options.to = "20ms";
+  EXPECT_EQ(recorded_whole(*resolved, options).at("clocks.csv"),
+            "time_s,node,grandmaster,offset_ns,true_offset_ns\n"
+            "0.020000000000,a,a,0.000,200.000\n0.020000000000,b,b,0.000,-199.001\n");
+  options.to = "19ms";
+  EXPECT_EQ(recorded_whole(*resolved, options).at("clocks.csv"), "time_s,node,grandmaster,offset_ns,true_offset_ns\n");
 }
 
 TEST(Recording, IsTheSameOfWhatIsSelected) {
@@ -161,18 +169,47 @@ TEST(Recording, WavesEndWithTheStretch) {
   EXPECT_EQ(last_of(recorded_whole(*resolved, waves).at("waves.vcd")), 5'000'000'000) << "after the end of the run there is nothing";
 }
 
+std::size_t occurrences(const std::string& text, const std::string& piece) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + piece.size())) ++found;
+  return found;
+}
+
+// Ten frames of each stream, of which all but the first of "metered" are too long, come to a closed gate, find no token,
+// or are longer than their queue takes: each is a row of its reason and a mark.
+TEST(Recording, WhatIsDiscardedForEachReasonIsMarked) {
+  const auto resolved = sound(R"({"name": "t", "duration": "10ms", "network": {"nodes": {"h": {"kind": "host"}, "g": {"kind": "host"},
+      "sw": {"kind": "switch", "egress": [{"to": "g", "max_sdu": [{"class": 3, "size": "100B"}]}], "ingress": {
+        "filters": [{"stream": "filtered", "max_sdu": "100B"}, {"stream": "gated", "gate": "closed"}, {"stream": "metered", "meter": "small"}],
+        "gates": [{"name": "closed", "open": false}],
+        "meters": [{"name": "small", "cir": "8bps", "cbs": "300B"}]}}},
+      "links": [{"ends": ["h", "sw"]}, {"ends": ["sw", "g"]}]},
+    "streams": [{"name": "filtered", "from": "h", "to": "g", "payload": "200B", "pcp": 1, "every": "1ms", "offset": "0us"},
+                {"name": "gated", "from": "h", "to": "g", "payload": "200B", "pcp": 1, "every": "1ms", "offset": "100us"},
+                {"name": "metered", "from": "h", "to": "g", "payload": "200B", "pcp": 1, "every": "1ms", "offset": "200us"},
+                {"name": "queued", "from": "h", "to": "g", "payload": "200B", "pcp": 3, "every": "1ms", "offset": "300us"}]})");
+  RecordingOptions options;
+  options.timeline = options.frames = true;
+  const Files files = recorded_whole(*resolved, options);
+  const std::string& timeline = files.at("timeline.json");
+  EXPECT_EQ(occurrences(timeline, R"("name":"drop")"), 39u);
+  struct Discarded {
+    const char* reason;
+    std::size_t frames;
+  };
+  for (const auto& [reason, frames] : {Discarded{"stream_max_sdu", 10}, {"stream_gate", 10}, {"flow_meter", 9}, {"queue_max_sdu", 10}}) {
+    EXPECT_EQ(occurrences(files.at("frames.csv"), "," + std::string(reason) + "\n"), frames) << reason;
+    EXPECT_EQ(occurrences(timeline, "\"" + std::string(reason) + "\""), frames) << reason;
+  }
+}
+
 // The switch discards 3217 frames of the camera at its meter (docs/tsn.md): each is a mark at the port by which it came in, which is that to the camera.
 TEST(Recording, WhatIsDiscardedAtANodeIsMarkedAtThePortByWhichItCame) {
   const auto resolved = shipped("tsn/policing", "30ms");
   RecordingOptions timeline;
   timeline.timeline = timeline.frames = true;
   const Files files = recorded_whole(*resolved, timeline);
-  const auto count = [](const std::string& text, const std::string& piece) {
-    std::size_t found = 0;
-    for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + piece.size())) ++found;
-    return found;
-  };
-  const std::size_t discarded = count(files.at("frames.csv"), ",flow_meter\n");
+  const std::size_t discarded = occurrences(files.at("frames.csv"), ",flow_meter\n");
   EXPECT_GT(discarded, 50u);
   const models::NodeIndex node{*resolved->topology.find("switch")};
   const models::NodeIndex camera{*resolved->topology.find("camera")};

@@ -13,8 +13,8 @@
 #include "json/fields.hpp"
 #include "json/quantity.hpp"
 #include "scenario/resolve/resolve.hpp"
+#include "verify/adversary.hpp"
 #include "verify/bounds.hpp"
-#include "verify/probe.hpp"
 
 namespace takt::verify {
 namespace {
@@ -31,29 +31,44 @@ struct Knob {
   std::function<std::string(std::int64_t)> text;
 };
 
+/// What a search for a change that is proved may cost, in runs: so many that those with other seeds fit in the quarter
+/// that they get.
+constexpr std::uint64_t runs_of_a_trial(unsigned seeds) { return 4 * std::uint64_t{seeds}; }
+
 class Workshop {
  public:
-  Workshop(const scenario::Resolved& resolved, const results::RequirementResult& requirement, Budget& budget) : asked_(resolved.scenario), required_(requirement), budget_(budget) {
-    const scenario::RequiredFigure& required = resolved.requirements[*requirement.requirement];
-    asked_.require = {resolved.scenario.require[required.entry]};   // the others may not make sense any more
-    required_.requirement = required.part;
-  }
+  Workshop(const scenario::Resolved& resolved, const results::RequirementResult& requirement, unsigned seeds, std::uint64_t cost_of_run, Budget& budget)
+      : asked_(resolved.scenario), required_(requirement), seeds_(seeds), cost_of_trial_(runs_of_a_trial(seeds) * cost_of_run), budget_(budget) {}
 
   std::optional<Remedy> look(const Knob& knob) {
-    if (knob.values.empty() || !proved_with(knob, knob.values.back())) return std::nullopt;
-    std::size_t fails = 0, holds = knob.values.size();   // in numbers from 1; 0: as it is
-    while (holds - fails > 1) {
-      if (budget_.is_interrupted()) return std::nullopt;
-      const std::size_t middle = (fails + holds) / 2;
-      (proved_with(knob, knob.values[middle - 1]) ? holds : fails) = middle;
+    const auto is_proved_with = [&](std::size_t number) { return proved_with(knob, knob.values[number]); };
+    std::optional<std::size_t> nearest = first_of(knob, 0, is_proved_with);
+    if (!nearest) return std::nullopt;
+    std::optional<Duration> bound = tried_with(knob, knob.values[*nearest]);
+    if (!bound) {
+      // What is wrong with it is no matter of the bound.
+      nearest = first_of(knob, *nearest + 1, [&](std::size_t number) { return tried_with(knob, knob.values[number]).has_value(); });
+      if (nearest) bound = tried_with(knob, knob.values[*nearest]);
     }
-    const std::int64_t found = knob.values[holds - 1];
-    const std::optional<Duration> bound = tried_with(knob, found);
     if (!bound) return std::nullopt;
+    const std::int64_t found = knob.values[*nearest];
     return Remedy{knob.what, knob.text(found), *bound, [apply = knob.apply, found](Scenario& changed) { apply(changed, found); }};
   }
 
  private:
+  /// The first value from there on with which it holds, if it does with the last one.
+  template <class Holds>
+  std::optional<std::size_t> first_of(const Knob& knob, std::size_t from, Holds&& holds_with) {
+    if (from >= knob.values.size() || !holds_with(knob.values.size() - 1)) return std::nullopt;
+    std::size_t fails = from, holds = knob.values.size();   // in numbers from 1; `from`: known to fail, or not asked
+    while (holds - fails > 1) {
+      if (budget_.is_interrupted()) return std::nullopt;
+      const std::size_t middle = (fails + holds) / 2;
+      (holds_with(middle - 1) ? holds : fails) = middle;
+    }
+    return holds - 1;
+  }
+
   std::unique_ptr<scenario::Resolved> changed_by(const Knob& knob, std::int64_t value) const {
     Scenario changed = asked_;
     knob.apply(changed, value);
@@ -81,22 +96,30 @@ class Workshop {
     return proof.holds && proof.time && ledger.objection(proof.assumptions, proof.from).empty();
   }
 
-  /// The bound of the scenario as a file says it, if it is proved, and if a run of it agrees.
+  /// The bound of the scenario with the change, if it is proved, and if no run that a search makes fails it.
   std::optional<Duration> tried_with(const Knob& knob, std::int64_t value) {
+    if (budget_.left() < cost_of_trial_) return std::nullopt;
     const auto resolved = changed_by(knob, value);
     if (!resolved) return std::nullopt;
     const analysis::Bounds bounds = bounds_of(*resolved);
-    const std::optional<Probe> run = probe(resolved->scenario, bounds, budget_.interrupted());
-    if (!run) return std::nullopt;
-    budget_.spend(cost_of_run(*resolved, run->events));
+    if (!is_proved(*resolved, bounds, bounds.ledger)) return std::nullopt;
+    SearchOptions options;
+    options.seeds = seeds_;
+    options.events = cost_of_trial_;
+    options.interrupted = budget_.interrupted();
+    const Search found = search(*resolved, bounds, options);
+    budget_.spend(cost_of_trial_);
+    if (found.partial || found.contradiction) return std::nullopt;
     analysis::AssumptionLedger ledger = bounds.ledger;
-    for (const Violation& violation : run->violations) ledger.violate(violation.assumption, violation.witness);
-    const bool agrees = run->contradiction.empty() && run->requirements[*required_.requirement].verdict != results::Verdict::fail;
+    for (const Violation& violation : found.violations) ledger.violate(violation.assumption, violation.witness);
+    const bool agrees = !found.findings[*required_.requirement].worst.failed;
     return agrees && is_proved(*resolved, bounds, ledger) ? bounds.requirements[*required_.requirement].duration : std::nullopt;
   }
 
   Scenario asked_;
-  results::RequirementResult required_;   // of the scenario that asks for it alone
+  results::RequirementResult required_;
+  unsigned seeds_;
+  std::uint64_t cost_of_trial_;
   Budget& budget_;
 };
 
@@ -184,7 +207,7 @@ void leave_out_the_shortest(Knob& knob, Duration present) {
 
 }  // namespace
 
-std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, Budget& budget) {
+std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, unsigned seeds, std::uint64_t cost_of_run, Budget& budget) {
   if (!requirement.limit || !requirement.requirement) return {};
   const Scenario& scenario = resolved.scenario;
   std::vector<Knob> knobs;
@@ -206,7 +229,7 @@ std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const resul
   if (scenario.gates && scenario.gates->margin && !scenario.gates->margin->is_auto)
     knobs.push_back({"margin of the gates at most", times_below(scenario.gates->margin->value), [](Scenario& changed, std::int64_t value) { changed.gates->margin = json::OrAuto<Duration>(Duration::from_ps(value)); }, as_time});
   knobs.push_back(link_rate(scenario));
-  Workshop workshop(resolved, requirement, budget);
+  Workshop workshop(resolved, requirement, seeds, cost_of_run, budget);
   std::vector<Remedy> found;
   for (const Knob& knob : knobs) {
     if (budget.is_interrupted() || budget.left() == 0) break;

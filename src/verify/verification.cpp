@@ -85,7 +85,7 @@ void add_slack(Verification& result, const analysis::Bounds& bounds, Budget& bud
   }
 }
 
-void add_help(Verification& result, const scenario::Resolved& resolved, Budget& budget, std::uint64_t cost_of_run) {
+void add_help(Verification& result, const scenario::Resolved& resolved, unsigned seeds, Budget& budget, std::uint64_t cost_of_run) {
   if (result.contradiction || result.partial) return;
   for (Line& line : result.lines) {
     if (line.verdict == Conclusion::pass || line.verdict == Conclusion::reported) continue;
@@ -93,9 +93,7 @@ void add_help(Verification& result, const scenario::Resolved& resolved, Budget& 
       budget.spend(replays / 2 * cost_of_run);
       line.weighty = weightiest_parts(line.longest.scenario(), line.requirement, *line.adversarial, budget.interrupted());
     }
-    // Where the bound keeps the limit something else than time fails, such as a lost frame.
-    if (line.bound && line.requirement.limit && *line.bound <= *line.requirement.limit) continue;
-    line.remedies = remedies_for(resolved, line.requirement, budget);
+    line.remedies = remedies_for(resolved, line.requirement, seeds, cost_of_run, budget);
   }
 }
 
@@ -142,7 +140,7 @@ Verification verify(const scenario::Resolved& resolved, const Options& options) 
   const std::vector<Proof> proofs = prove(resolved, bounds, requirements, proof);
   Verification result = conclude(std::move(found), proofs, bounds.ledger);
   add_slack(result, bounds, budget, cost_of_run);
-  if (options.helps) add_help(result, resolved, budget, cost_of_run);
+  if (options.helps) add_help(result, resolved, options.search.seeds, budget, cost_of_run);
   result.partial = result.partial || budget.is_interrupted();
   return result;
 }

@@ -390,9 +390,7 @@ class Checks {
 
   /// What is said to help is proved if it is done.
   void try_remedy(const verify::Line& line, const verify::Remedy& remedy) {
-    const scenario::RequiredFigure& required = r_.requirements[*line.requirement.requirement];
     scenario::Scenario changed = r_.scenario;
-    changed.require = {r_.scenario.require[required.entry]};
     remedy.apply(changed);
     json::Diagnostics diagnostics;
     const auto again = scenario::resolve(std::move(changed), diagnostics);
@@ -401,7 +399,7 @@ class Checks {
     options.search.seeds = 2;
     options.search.events = options_.verify_events;
     const verify::Verification found = verify::verify(*again, options);
-    expect(found.lines[required.part].verdict == verify::Conclusion::pass, [&] { return line.requirement.text + ": with " + remedy.what + " " + remedy.value + " it is " + verify::name_of(found.lines[required.part].verdict); });
+    expect(found.lines[*line.requirement.requirement].verdict == verify::Conclusion::pass, [&] { return line.requirement.text + ": with " + remedy.what + " " + remedy.value + " it is " + verify::name_of(found.lines[*line.requirement.requirement].verdict); });
   }
 
   /// "sw:1"

@@ -22,6 +22,7 @@
 #include "scenario/run/run.hpp"
 #include "study/phases.hpp"
 #include "tests/explain/checked_ways.hpp"
+#include "tests/generator/check_outputs.hpp"
 #include "tests/generator/schema_validation.hpp"
 #include "tests/property/twins.hpp"
 #include "tests/wire_checker/checked_run.hpp"
@@ -61,6 +62,10 @@ class Checks {
     check("ways", [&] { ways(); });
     if (r_.scenario.clocks.gptp) check("clocks", [&] { clocks(); });
     check("lost", [&] { lost(); });
+    check("outputs", [&] {
+      const std::string mistake = mistake_in_outputs(r_, *result_);
+      expect(mistake.empty(), [&] { return mistake; });
+    });
     if (r_.applications.empty()) {
       check("bound", [&] { bounds(); });
       if (text.find("\"auto\"") == std::string::npos)

@@ -8,6 +8,7 @@
 //   frames     what was sent or copied was delivered, dropped, or is on its way; nothing leaks
 //   ways       the latency of every frame is explained: parts add up, and what they blame was on that wire; deliveries and losses are all there
 //   clocks     what passes of clocks is so at every look, whomever they follow; nothing passes that two grandmasters show; no gate keeps gPTP waiting for ever
+//   outputs    whatever the names: reports, tables, pages, recordings and exports keep their form, and can be read back
 //   bound      no run exceeds a bound
 //   phases     nor does the run of a study, whose phases the seed draws where nobody gives them
 //   order      bounds are the same with streams, nodes and links in another order in the file

@@ -18,7 +18,8 @@ std::string in_ns(sim::Duration offset) {
 
 }  // namespace
 
-ClockSeries::ClockSeries(const models::Network& network, std::string path, sim::TrueTime from, sim::TrueTime to) : network_(&network), file_(std::move(path)), from_(from), to_(to) {
+ClockSeries::ClockSeries(const models::Network& network, std::string path, sim::TrueTime from, sim::TrueTime to)
+    : network_(&network), file_(std::move(path)), from_(from), to_(to) {
   file_.write("time_s,node,grandmaster,offset_ns,true_offset_ns\n");
 }
 

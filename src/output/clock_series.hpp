@@ -8,8 +8,8 @@
 
 namespace takt::output {
 
-/// Columns: time in seconds, node, grandmaster, offsets of the node's clock from the grandmaster's and from true time in nanoseconds. Writes as it goes
-/// what lies in the stretch of time.
+/// Columns: time in seconds, node, grandmaster, offsets of the node's clock from the grandmaster's and from true time
+/// in nanoseconds. Writes as it goes what lies in the stretch of time.
 class ClockSeries final : public scenario::ClockSampleSink {
  public:
   ClockSeries(const models::Network& network, std::string path, sim::TrueTime from, sim::TrueTime to);

@@ -194,7 +194,8 @@ std::string Recording::open() {
     add_sink(*waves_, {Occurrence::enqueued, Occurrence::dequeued, Occurrence::started, Occurrence::resumed, Occurrence::cut, Occurrence::drop, Occurrence::output_changed});
   }
   if (options_.clocks) {
-    clocks_ = std::make_unique<ClockSeries>(run_->network(), (folder / "clocks.csv").string(), ways_.selection.from, ways_.selection.to);
+    clocks_ = std::make_unique<ClockSeries>(run_->network(), (folder / "clocks.csv").string(), ways_.selection.from,
+                                            ways_.selection.to);
     for (scenario::Run* const run : runs_) run->set_clock_sink(clocks_.get());
   }
   if (options_.frames) {

@@ -37,8 +37,13 @@ constexpr std::uint64_t runs_of_a_trial(unsigned seeds) { return 4 * std::uint64
 
 class Workshop {
  public:
-  Workshop(const scenario::Resolved& resolved, const results::RequirementResult& requirement, unsigned seeds, std::uint64_t cost_of_run, Budget& budget)
-      : asked_(resolved.scenario), required_(requirement), seeds_(seeds), cost_of_trial_(runs_of_a_trial(seeds) * cost_of_run), budget_(budget) {}
+  Workshop(const scenario::Resolved& resolved, const results::RequirementResult& requirement, unsigned seeds,
+           std::uint64_t cost_of_run, Budget& budget)
+      : asked_(resolved.scenario),
+        required_(requirement),
+        seeds_(seeds),
+        cost_of_trial_(runs_of_a_trial(seeds) * cost_of_run),
+        budget_(budget) {}
 
   std::optional<Remedy> look(const Knob& knob) {
     const auto is_proved_with = [&](std::size_t number) { return proved_with(knob, knob.values[number]); };
@@ -47,7 +52,8 @@ class Workshop {
     std::optional<Duration> bound = tried_with(knob, knob.values[*nearest]);
     if (!bound) {
       // What is wrong with it is no matter of the bound.
-      nearest = first_of(knob, *nearest + 1, [&](std::size_t number) { return tried_with(knob, knob.values[number]).has_value(); });
+      nearest = first_of(knob, *nearest + 1,
+                         [&](std::size_t number) { return tried_with(knob, knob.values[number]).has_value(); });
       if (nearest) bound = tried_with(knob, knob.values[*nearest]);
     }
     if (!bound) return std::nullopt;
@@ -60,7 +66,7 @@ class Workshop {
   template <class Holds>
   std::optional<std::size_t> first_of(const Knob& knob, std::size_t from, Holds&& holds_with) {
     if (from >= knob.values.size() || !holds_with(knob.values.size() - 1)) return std::nullopt;
-    std::size_t fails = from, holds = knob.values.size();   // in numbers from 1; `from`: known to fail, or not asked
+    std::size_t fails = from, holds = knob.values.size();  // in numbers from 1; `from`: known to fail, or not asked
     while (holds - fails > 1) {
       if (budget_.is_interrupted()) return std::nullopt;
       const std::size_t middle = (fails + holds) / 2;
@@ -207,7 +213,8 @@ void leave_out_the_shortest(Knob& knob, Duration present) {
 
 }  // namespace
 
-std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement, unsigned seeds, std::uint64_t cost_of_run, Budget& budget) {
+std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement,
+                                 unsigned seeds, std::uint64_t cost_of_run, Budget& budget) {
   if (!requirement.limit || !requirement.requirement) return {};
   const Scenario& scenario = resolved.scenario;
   std::vector<Knob> knobs;

@@ -21,12 +21,12 @@ struct Remedy {
   std::function<void(scenario::Scenario&)> apply = {};   ///< makes the change
 };
 
-/// Looks for each, by bisection over what is proved, and tries what it has found as takt verify would: the scenario with
-/// the change is proved, a search with so many seeds finds no run that fails the requirement, and nothing in its runs
-/// speaks against what the proof rests on. Where the nearest change that is proved does not pass the search, such as one
-/// with which frames are still lost, the nearest that does. Finds what is monotone: a bound that is no greater with less
-/// payload, load or initialisation, or a faster link. Of a requirement without a limit on a time none, nor where the
-/// budget is not enough for the search. `cost_of_run`: of the scenario as it is, in events.
+/// Looks for each, by bisection over what is proved, and tries what it has found as takt verify would: the scenario
+/// with the change is proved, a search with so many seeds finds no run that fails the requirement, and nothing in its
+/// runs speaks against what the proof rests on. Where the nearest change that is proved does not pass the search, such
+/// as one with which frames are still lost, the nearest that does. Finds what is monotone: a bound that is no greater
+/// with less payload, load or initialisation, or a faster link. Of a requirement without a limit on a time none, nor
+/// where the budget is not enough for the search. `cost_of_run`: of the scenario as it is, in events.
 std::vector<Remedy> remedies_for(const scenario::Resolved& resolved, const results::RequirementResult& requirement,
                                  unsigned seeds, std::uint64_t cost_of_run, Budget& budget);
 

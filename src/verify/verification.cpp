@@ -85,7 +85,8 @@ void add_slack(Verification& result, const analysis::Bounds& bounds, Budget& bud
   }
 }
 
-void add_help(Verification& result, const scenario::Resolved& resolved, unsigned seeds, Budget& budget, std::uint64_t cost_of_run) {
+void add_help(Verification& result, const scenario::Resolved& resolved, unsigned seeds, Budget& budget,
+              std::uint64_t cost_of_run) {
   if (result.contradiction || result.partial) return;
   for (Line& line : result.lines) {
     if (line.verdict == Conclusion::pass || line.verdict == Conclusion::reported) continue;

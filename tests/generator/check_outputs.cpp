@@ -36,7 +36,9 @@ void expect_output(bool holds, const std::string& message) {
 /// A folder that is gone afterwards.
 class Folder {
  public:
-  Folder() : path_(fs::temp_directory_path() / ("takt-outputs-" + std::to_string(::getpid()))) { fs::create_directories(path_); }
+  Folder() : path_(fs::temp_directory_path() / ("takt-outputs-" + std::to_string(::getpid()))) {
+    fs::create_directories(path_);
+  }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
   ~Folder() {
@@ -62,9 +64,12 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text, const std
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (is_quoted) {
-      if (c != '"') row.back() += c;
-      else if (i + 1 < text.size() && text[i + 1] == '"') row.back() += text[++i];
-      else is_quoted = false;
+      if (c != '"')
+        row.back() += c;
+      else if (i + 1 < text.size() && text[i + 1] == '"')
+        row.back() += text[++i];
+      else
+        is_quoted = false;
     } else if (c == '"') {
       expect_output(row.back().empty() && !was_quoted, file + ": a quote within a field");
       is_quoted = was_quoted = true;
@@ -77,12 +82,16 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text, const std
       rows.push_back(std::move(row));
       row.assign(1, {});
     } else {
-      expect_output(!was_quoted && c != '\r', file + ": text behind a quoted field, or a field that needs quotes and has none");
+      expect_output(!was_quoted && c != '\r',
+                    file + ": text behind a quoted field, or a field that needs quotes and has none");
       row.back() += c;
     }
   }
   expect_output(!is_quoted && row.size() == 1 && row[0].empty(), file + ": it does not end with its last row");
-  for (const auto& each : rows) expect_output(each.size() == rows.front().size(), file + ": a row of " + std::to_string(each.size()) + " fields, the heading has " + std::to_string(rows.front().size()));
+  for (const auto& each : rows)
+    expect_output(each.size() == rows.front().size(), file + ": a row of " + std::to_string(each.size()) +
+                                                          " fields, the heading has " +
+                                                          std::to_string(rows.front().size()));
   return rows;
 }
 
@@ -107,7 +116,9 @@ class Outputs {
   /// No table moves a name out of a line.
   void read_report() {
     for (const std::string& text : {output::run_report(result_), output::check_report(r_)})
-      expect_output(std::ranges::none_of(text, [](char c) { return c != '\n' && static_cast<unsigned char>(c) < 0x20; }), "a report has control characters");
+      expect_output(
+          std::ranges::none_of(text, [](char c) { return c != '\n' && static_cast<unsigned char>(c) < 0x20; }),
+          "a report has control characters");
   }
 
   void read_json(const std::string& text, const std::string& file) {
@@ -121,7 +132,8 @@ class Outputs {
     expect_output(document.has_value(), diagnostics.to_text());
     const json::Node* const streams = document->root().find("streams");
     for (const results::StreamResult& stream : result_.streams)
-      expect_output(streams != nullptr && streams->find(stream.name) != nullptr, "result.json has no stream " + json::quote(stream.name));
+      expect_output(streams != nullptr && streams->find(stream.name) != nullptr,
+                    "result.json has no stream " + json::quote(stream.name));
   }
 
   void read_folder() {
@@ -137,7 +149,9 @@ class Outputs {
     run.advance();
     expect_output(recording.close().empty(), "the recording is not closed");
     output::WrittenFiles written(folder.name(), "run", "");
-    expect_output(written.begin().empty() && output::write_result_folder(written, result_, json::encode(r_.scenario)).empty(), "the folder is not written");
+    expect_output(
+        written.begin().empty() && output::write_result_folder(written, result_, json::encode(r_.scenario)).empty(),
+        "the folder is not written");
     for (const auto& entry : fs::directory_iterator(folder.name())) read_file(folder, entry.path().filename().string());
   }
 
@@ -149,9 +163,12 @@ class Outputs {
     const auto rows = rows_of(text, file);
     for (std::size_t column = 0; column < rows.front().size(); ++column) {
       const std::string& head = rows.front()[column];
-      const std::set<std::string>* const known = head == "stream" ? &streams_ : head == "node" || head == "grandmaster" ? &nodes_ : nullptr;
+      const std::set<std::string>* const known = head == "stream"                          ? &streams_
+                                                 : head == "node" || head == "grandmaster" ? &nodes_
+                                                                                           : nullptr;
       for (std::size_t row = 1; row < rows.size() && known != nullptr; ++row)
-        expect_output(rows[row][column].empty() || known->contains(rows[row][column]), file + ": no " + head + " is called " + json::quote(rows[row][column]));
+        expect_output(rows[row][column].empty() || known->contains(rows[row][column]),
+                      file + ": no " + head + " is called " + json::quote(rows[row][column]));
     }
   }
 
@@ -164,7 +181,8 @@ class Outputs {
       for (std::string word; words >> word;) all.push_back(word);
       if (all.empty() || (all[0] != "$var" && all[0] != "$scope")) continue;
       if (all[0] == "$var" && all.size() == 7 && all[5].starts_with('[')) all.erase(all.begin() + 5);
-      expect_output(all.back() == "$end" && all.size() == (all[0] == "$var" ? 6u : 4u), file + ": " + json::quote(line));
+      expect_output(all.back() == "$end" && all.size() == (all[0] == "$var" ? 6u : 4u),
+                    file + ": " + json::quote(line));
     }
   }
 
@@ -173,7 +191,8 @@ class Outputs {
     replay.advance([] { return false; });
     const std::string page = report::run_page(r_, result_, replay);
     for (const std::string& name : all_)
-      expect_output(name.find('<') == std::string::npos || page.find(name) == std::string::npos, "the page has a name as HTML: " + json::quote(name));
+      expect_output(name.find('<') == std::string::npos || page.find(name) == std::string::npos,
+                    "the page has a name as HTML: " + json::quote(name));
   }
 
   void read_export(const interchange::ExportFormat& format) {
@@ -187,7 +206,8 @@ class Outputs {
       const bool leads_out = path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end();
       expect_output(!file.name.empty() && !leads_out, name + ": no name for a file of the folder");
       json::Diagnostics diagnostics;
-      if (file.name.ends_with(".json")) expect_output(json::parse(file.content, name, diagnostics).has_value(), diagnostics.to_text());
+      if (file.name.ends_with(".json"))
+        expect_output(json::parse(file.content, name, diagnostics).has_value(), diagnostics.to_text());
       if (file.name.ends_with(".xml") || file.name.ends_with(".graphml") || file.name.ends_with(".svg"))
         expect_output(interchange::parse_xml(file.content, name, diagnostics).has_value(), diagnostics.to_text());
       if (file.name.ends_with(".csv")) rows_of(file.content, name);

@@ -8,9 +8,9 @@
 
 namespace takt::generator {
 
-/// The first mistake, or an empty text. Of a run: the report, result.json, tables, the time line, waveforms and the page;
-/// and all exports. JSON, XML, CSV and scripts are read back, names in them are those of the scenario, and HTML in names
-/// does not come out as such.
+/// The first mistake, or an empty text. Of a run: the report, result.json, tables, the time line, waveforms and the
+/// page; and all exports. JSON, XML, CSV and scripts are read back, names in them are those of the scenario, and HTML
+/// in names does not come out as such.
 std::string mistake_in_outputs(const scenario::Resolved& resolved, const results::RunResult& result);
 
 }  // namespace takt::generator

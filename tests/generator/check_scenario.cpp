@@ -404,7 +404,10 @@ class Checks {
     options.search.seeds = 2;
     options.search.events = options_.verify_events;
     const verify::Verification found = verify::verify(*again, options);
-    expect(found.lines[*line.requirement.requirement].verdict == verify::Conclusion::pass, [&] { return line.requirement.text + ": with " + remedy.what + " " + remedy.value + " it is " + verify::name_of(found.lines[*line.requirement.requirement].verdict); });
+    expect(found.lines[*line.requirement.requirement].verdict == verify::Conclusion::pass, [&] {
+      return line.requirement.text + ": with " + remedy.what + " " + remedy.value + " it is " +
+             verify::name_of(found.lines[*line.requirement.requirement].verdict);
+    });
   }
 
   /// "sw:1"

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "json/document.hpp"
 #include "cli/status_line.hpp"
+#include "json/document.hpp"
 #include "study/pool.hpp"
 #include "tests/generator/against.hpp"
 #include "tests/generator/check_scenario.hpp"
@@ -35,14 +35,18 @@ constexpr const char* usage =
     "\n"
     "  takt_soak [--hours H] [--count N] [--first N] [--jobs N] [--folder DIR] [--build NAME] [--only CHECK]\n"
     "  takt_soak --against PROGRAM [--recordings] [--hours H] [--count N] [--first N] [--jobs N] [--folder DIR]\n"
-    "                                    runs each (2,000) by this build and by another one, whose takt or takt_digest PROGRAM is, and\n"
-    "                                    compares digests, or with --recordings frames.csv and hops.csv, sorted by time and node\n"
+    "                                    runs each (2,000) by this build and by another one, whose takt or takt_digest "
+    "PROGRAM is, and\n"
+    "                                    compares digests, or with --recordings frames.csv and hops.csv, sorted by "
+    "time and node\n"
     "  takt_soak --show N                the scenario of this number\n"
     "  takt_soak --check FILE...         these scenarios instead\n"
     "  takt_soak --shrink CHECK FILE     the least of a scenario that still fails this check, on standard output\n"
     "\n"
-    "It ends after so many hours (1) or scenarios, whichever is first, and goes on where it was stopped: DIR/state.json knows how far it\n"
-    "has come. Another build begins anew, with other numbers. What is found stands in DIR/CHECK-NUMBER.json, with the message in .txt.\n"
+    "It ends after so many hours (1) or scenarios, whichever is first, and goes on where it was stopped: "
+    "DIR/state.json knows how far it\n"
+    "has come. Another build begins anew, with other numbers. What is found stands in DIR/CHECK-NUMBER.json, with the "
+    "message in .txt.\n"
     "Exit status: 0 nothing was found, 1 something was, 2 bad input, 130 interrupted.\n";
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -57,7 +61,7 @@ struct Options {
   std::optional<std::uint64_t> show;
   std::string shrink;
   std::string against;
-  std::string only;   // a check
+  std::string only;  // a check
   bool recordings = false;
   std::vector<std::string> files;
 };
@@ -158,7 +162,8 @@ std::vector<Finding> findings_of(const study::Answer& answer, bool* repaired = n
 std::vector<Finding> check_apart(const std::string& text, const std::string& file, const std::string& only = {}) {
   std::vector<Finding> findings;
   bool is_asked = false;
-  study::Pool pool(1, limits, [&](std::uint64_t) { return answer_of(check_scenario(text, file, {.only = only}), false, {}); });
+  study::Pool pool(1, limits,
+                   [&](std::uint64_t) { return answer_of(check_scenario(text, file, {.only = only}), false, {}); });
   pool.run([&]() -> std::optional<std::uint64_t> { return std::exchange(is_asked, true) ? std::nullopt : std::optional<std::uint64_t>(0); },
            [&](std::uint64_t, const study::Answer& answer) {
              findings = findings_of(answer);
@@ -194,7 +199,8 @@ class Soak {
     std::uint64_t handed_out = state_.done;
     study::Pool pool(options_.jobs, limits, [this](std::uint64_t number) {
       const Generated made = generate(number);
-      return answer_of(made.resolved ? check_scenario(made.text, file_name(), {.only = options_.only}) : Checked(), !made.first_refusal.empty(), made.problem);
+      return answer_of(made.resolved ? check_scenario(made.text, file_name(), {.only = options_.only}) : Checked(),
+                       !made.first_refusal.empty(), made.problem);
     });
     const std::string problem = pool.run(
         [&]() -> std::optional<std::uint64_t> {
@@ -330,7 +336,8 @@ int run(const std::vector<std::string>& arguments) {
     else if (key == "--folder") options.folder = value;
     else if (key == "--build") options.build = value;
     else if (key == "--against") options.against = value;
-    else if (key == "--only") options.only = value;
+    else if (key == "--only")
+      options.only = value;
     else if (key == "--shrink") options.shrink = value;
     else if (key == "--show") options.show = std::stoull(value);
     else throw std::invalid_argument("unknown option " + key);

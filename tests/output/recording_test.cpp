@@ -175,10 +175,11 @@ std::size_t occurrences(const std::string& text, const std::string& piece) {
   return found;
 }
 
-// Ten frames of each stream, of which all but the first of "metered" are too long, come to a closed gate, find no token,
-// or are longer than their queue takes: each is a row of its reason and a mark.
+// Ten frames of each stream, of which all but the first of "metered" are too long, come to a closed gate, find no
+// token, or are longer than their queue takes: each is a row of its reason and a mark.
 TEST(Recording, WhatIsDiscardedForEachReasonIsMarked) {
-  const auto resolved = sound(R"({"name": "t", "duration": "10ms", "network": {"nodes": {"h": {"kind": "host"}, "g": {"kind": "host"},
+  const auto resolved =
+      sound(R"({"name": "t", "duration": "10ms", "network": {"nodes": {"h": {"kind": "host"}, "g": {"kind": "host"},
       "sw": {"kind": "switch", "egress": [{"to": "g", "max_sdu": [{"class": 3, "size": "100B"}]}], "ingress": {
         "filters": [{"stream": "filtered", "max_sdu": "100B"}, {"stream": "gated", "gate": "closed"}, {"stream": "metered", "meter": "small"}],
         "gates": [{"name": "closed", "open": false}],
@@ -197,7 +198,8 @@ TEST(Recording, WhatIsDiscardedForEachReasonIsMarked) {
     const char* reason;
     std::size_t frames;
   };
-  for (const auto& [reason, frames] : {Discarded{"stream_max_sdu", 10}, {"stream_gate", 10}, {"flow_meter", 9}, {"queue_max_sdu", 10}}) {
+  for (const auto& [reason, frames] :
+       {Discarded{"stream_max_sdu", 10}, {"stream_gate", 10}, {"flow_meter", 9}, {"queue_max_sdu", 10}}) {
     EXPECT_EQ(occurrences(files.at("frames.csv"), "," + std::string(reason) + "\n"), frames) << reason;
     EXPECT_EQ(occurrences(timeline, "\"" + std::string(reason) + "\""), frames) << reason;
   }

@@ -230,7 +230,8 @@ TEST(Metamorphic, OfParallelLinksTheFirstIsAnotherPath) {
   const std::string near = R"({"ends": ["s0", "s1"], "delay": "50ns"})";
   const std::string far = R"({"ends": ["s0:40", "s1:40"], "length": "100m"})";
   std::map<std::string, Seen> by_near, by_far;
-  for (const auto& [text, seen] : {std::pair(head + near + ", " + far + tail, &by_near), std::pair(head + far + ", " + near + tail, &by_far)}) {
+  for (const auto& [text, seen] :
+       {std::pair(head + near + ", " + far + tail, &by_near), std::pair(head + far + ", " + near + tail, &by_far)}) {
     const auto resolved = scenario::test::sound(text);
     *seen = bounds_of(*resolved);
     add_run(*resolved, *seen);

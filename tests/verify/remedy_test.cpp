@@ -106,7 +106,8 @@ Conclusion with(const scenario::Resolved& scenario, const Remedy& remedy, std::s
 // The time is within the limit, but a queue of 1000 octets may be full of two frames of 722 octets: nobody knows that
 // none is lost. It takes both if x has at most 278 octets, tag and FCS included, and less by what comes in meanwhile.
 TEST(Remedies, WhereFramesMayBeLostAndTheBoundIsWithinTheLimit) {
-  const auto scenario = resolved(R"({"name": "busy", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"},
+  const auto scenario = resolved(
+      R"({"name": "busy", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"},
       "c": {"kind": "host", "os": "none"}, "s": {"kind": "switch", "queues": {"octets": "1000B"}}},
     "links": [{"ends": ["a", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"}, {"ends": ["c", "s"], "rate": "100Mbps"}]},
     "streams": [{"name": "x", "from": "a", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3, "encapsulation": "ethernet"},
@@ -120,7 +121,8 @@ TEST(Remedies, WhereFramesMayBeLostAndTheBoundIsWithinTheLimit) {
   ASSERT_FALSE(line.remedies.empty()) << line.reason;
   EXPECT_EQ(line.remedies[0].what, "payload of x at most");
   EXPECT_LE(std::stoi(line.remedies[0].value), 278 - 22);
-  for (const Remedy& remedy : line.remedies) EXPECT_EQ(with(*scenario, remedy, 1, small()), Conclusion::pass) << remedy.what << " " << remedy.value;
+  for (const Remedy& remedy : line.remedies)
+    EXPECT_EQ(with(*scenario, remedy, 1, small()), Conclusion::pass) << remedy.what << " " << remedy.value;
 }
 
 TEST(Remedies, NoneOfWhatIsProvedOrNotAskedFor) {

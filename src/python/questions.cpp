@@ -100,7 +100,7 @@ py::tuple schedule_problem(const schedule::Problem& problem, const HowToSchedule
     const py::gil_scoped_release unlocked;
     using schedule::Objective;
     const Objective objective = how.objective == "latency" ? Objective::latency : how.objective == "entries" ? Objective::entries : how.objective == "slack" ? Objective::slack : Objective::feasible;
-    schedule::Decision decision = schedule::decide(problem, search_options(how, watch), objective);
+    schedule::Decision decision = schedule_check::decide_judged(problem, search_options(how, watch), objective);
     const bool is_scheduled = decision.verdict == schedule::Decision::Verdict::scheduled;
     std::optional<std::string> no_lists;
     if (how.gates && is_scheduled) no_lists = schedule::make_gate_lists(problem, decision.found.solution, {how.entries});
@@ -110,10 +110,7 @@ py::tuple schedule_problem(const schedule::Problem& problem, const HowToSchedule
       wrong = schedule_check::check(with_margin, decision.found.solution);
       solution = json::compact(instances::write_solution(problem, decision.found.solution));
     }
-    if (decision.certificate) {
-      if (std::string why = schedule_check::why_not_proved(problem, *decision.certificate); !why.empty()) wrong.push_back(std::move(why));
-      certificate = json::compact(instances::write_certificate(problem, *decision.certificate));
-    }
+    if (decision.certificate) certificate = json::compact(instances::write_certificate(problem, *decision.certificate));
     report = json::compact(json::ShapeOf<instances::ScheduleReport>::write(instances::report(problem, decision, no_lists)));
   }
   watch.raise();

@@ -17,6 +17,18 @@ std::int64_t longest_list(const Problem& problem, const Solution& solution) {
   return static_cast<std::int64_t>(most_entries(with_lists));
 }
 
+/// True: the problem is refuted. A certificate that the judge rejects refutes nothing.
+bool is_refuted(const Problem& problem, const SearchOptions& options, std::optional<Certificate> certificate, Decision& decision) {
+  if (!certificate) return false;
+  if (std::string why = options.judge ? options.judge(problem, *certificate) : std::string(); !why.empty()) {
+    decision.rejected.push_back(std::move(why));
+    return false;
+  }
+  decision.certificate = std::move(certificate);
+  decision.verdict = Decision::Verdict::infeasible;
+  return true;
+}
+
 /// Attempts and proofs in turn, more of both each time: who was moved most often is tried in proofs, and placed first by the next attempts.
 void search_or_refute(const Problem& problem, const SearchOptions& options, Decision& decision) {
   SearchOptions now = options;
@@ -33,11 +45,8 @@ void search_or_refute(const Problem& problem, const SearchOptions& options, Deci
     const std::size_t left = decision.found.left_over.size(), all = problem.streams.size();
     ClausalEffort here = effort;
     if (left * 7 > all) here.most_clauses *= 4;
-    if (round > 0 || left * 50 > all) decision.certificate = refute_by_clauses(problem, now.hardness, here, options.stop);
-    if (decision.certificate) {
-      decision.verdict = Decision::Verdict::infeasible;
-      return;
-    }
+    const bool may_refute = round > 0 || left * 50 > all;
+    if (may_refute && is_refuted(problem, options, refute_by_clauses(problem, now.hardness, here, options.stop), decision)) return;
     if (now.attempts >= options.attempts || options.stop()) return;
     now.first = now.attempts;
     effort.conflicts = std::min<std::uint32_t>(effort.conflicts * 4, 1u << 24);
@@ -52,11 +61,7 @@ Decision decide_as_it_is(const Problem& problem, const SearchOptions& options) {
   decision.margin = problem.model.margin;
   if (!options.score) decision.found = place_once(problem, options);
   if (options.score || !decision.found.is_complete()) {
-    decision.certificate = refute(problem, options.stop);
-    if (decision.certificate) {
-      decision.verdict = Decision::Verdict::infeasible;
-      return decision;
-    }
+    if (is_refuted(problem, options, refute(problem, options.stop), decision)) return decision;
     decision.how = "search";
     search_or_refute(problem, options, decision);
     if (decision.certificate) return decision;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "schedule/certificate.hpp"
 #include "schedule/search.hpp"
@@ -22,6 +24,7 @@ struct Decision {
   SearchResult found;                        ///< a schedule, or the best partial one
   std::optional<Certificate> certificate;    ///< why there is none
   std::string_view how;                      ///< "first fit" or "search"
+  std::vector<std::string> rejected;         ///< what the judge said of certificates that proved nothing
   Ps margin = 0;                             ///< clock error that the schedule is made for: the problem's, or what `slack` found
 };
 

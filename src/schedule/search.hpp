@@ -8,8 +8,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
+#include "schedule/certificate.hpp"
 #include "schedule/routes.hpp"
 #include "schedule/solution.hpp"
 
@@ -17,6 +19,9 @@ namespace takt::schedule {
 
 /// What is better of two schedules; less is better.
 using Score = std::function<std::int64_t(const Solution&)>;
+
+/// Why a certificate proves nothing; empty: it proves what it claims.
+using Judge = std::function<std::string(const Problem&, const Certificate&)>;
 
 /// Asked often, from several threads; true: give up.
 using Stop = std::function<bool()>;
@@ -32,6 +37,7 @@ struct SearchOptions {
   Score score;                        ///< if there is one, the first `scored` attempts all count, and the best of them is taken
   std::uint32_t scored = 12;
   Stop stop = [] { return false; };
+  Judge judge;                        ///< of certificates: what it rejects is not proved, and the search goes on; empty: all are taken
 };
 
 /// A stream that is left over, and who stands in its way at the cheapest place.

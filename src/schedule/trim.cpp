@@ -34,7 +34,7 @@ class Propagator {
       if (value(literal) == 0) assign(-literal, none);
     const std::uint32_t conflict = propagate(before);
     std::vector<std::uint32_t> from;
-    if (conflict != none) from = explain(conflict, before);
+    if (conflict != none) from = explain(conflict, before, clause);
     undo(before);
     if (conflict == none) return false;
     add(clause, std::move(from));
@@ -182,10 +182,16 @@ class Propagator {
     return none;
   }
 
-  /// What led to the conflict, in the order in which it did.
-  std::vector<std::uint32_t> explain(std::uint32_t conflict, std::size_t before) {
+  /// What led to the conflict, in the order in which it did. A unit that makes a literal of the step false is no part
+  /// of that: if none of the literals holds it leaves nothing to hold.
+  std::vector<std::uint32_t> explain(std::uint32_t conflict, std::size_t before, const Clause& step) {
     std::vector<std::uint32_t> units, later;
     marked_.clear();
+    for (const std::int32_t literal : step) {
+      if (unit_[variable(literal)] == none) continue;
+      seen_[variable(literal)] = 1;
+      marked_.push_back(variable(literal));
+    }
     const auto mark = [&](std::uint32_t id, std::int32_t but) {
       for (const std::int32_t literal : clauses_[id]) {
         const std::size_t v = variable(literal);

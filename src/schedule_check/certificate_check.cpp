@@ -157,4 +157,9 @@ class Proof : private Reach {
 
 std::string why_not_proved(const Problem& problem, const Certificate& certificate) { return Proof(problem, certificate).why_not(); }
 
+schedule::Decision decide_judged(const Problem& problem, schedule::SearchOptions options, schedule::Objective objective) {
+  options.judge = why_not_proved;
+  return schedule::decide(problem, options, objective);
+}
+
 }  // namespace takt::schedule_check

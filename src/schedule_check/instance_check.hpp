@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "schedule/certificate.hpp"
+#include "schedule/decide.hpp"
 #include "schedule/solution.hpp"
 
 namespace takt::schedule_check {
@@ -16,5 +17,9 @@ std::vector<std::string> check(const schedule::Problem& problem, const schedule:
 
 /// Why the certificate proves nothing; empty: it is a proof.
 std::string why_not_proved(const schedule::Problem& problem, const schedule::Certificate& certificate);
+
+/// `schedule::decide` with that judge: an infeasible problem has a certificate that is a proof.
+schedule::Decision decide_judged(const schedule::Problem& problem, schedule::SearchOptions options,
+                                 schedule::Objective objective = schedule::Objective::feasible);
 
 }  // namespace takt::schedule_check

@@ -86,6 +86,14 @@ class Clausal(unittest.TestCase):
             clauses.append(literals)
         self.assertEqual(clauses[-1], [])
 
+    def test_no_certificate_is_rejected(self):
+        folder = pathlib.Path(__file__).parents[1] / "findings"
+        for seed in "1", "3":
+            done = subprocess.run([TAKT, "schedule", folder / "09999_task.csv", folder / "09999_topo.csv", "--seed", seed],
+                                  capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (1, ""))
+            self.assertIn("infeasible (clausal)", done.stdout)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -124,6 +124,24 @@ TEST(Clausal, PlantedCoresAreFoundMinimal) {
   }
 }
 
+// A certificate that the judge rejects is no proof: the search goes on until it has another one, or is stopped.
+TEST(Clausal, WhatTheJudgeRejectsIsNotProved) {
+  if (!has_sat_solver()) GTEST_SKIP() << "no solver";
+  const Problem problem = three(47 * us + half_us);
+  SearchOptions options;
+  std::size_t asked = 0;
+  options.judge = [&](const Problem&, const Certificate&) { return ++asked < 3 ? "no" : ""; };
+  Decision decision = decide(problem, options);
+  EXPECT_EQ(decision.verdict, Decision::Verdict::infeasible);
+  EXPECT_EQ(decision.rejected, (std::vector<std::string>{"no", "no"}));
+  EXPECT_TRUE(decision.certificate);
+  options.judge = [](const Problem&, const Certificate&) { return "never"; };
+  decision = decide(problem, options);
+  EXPECT_EQ(decision.verdict, Decision::Verdict::undecided);
+  EXPECT_FALSE(decision.certificate);
+  EXPECT_FALSE(decision.rejected.empty());
+}
+
 TEST(Clausal, SameForAnyNumberOfJobs) {
   if (!has_sat_solver()) GTEST_SKIP() << "no solver";
   const Problem problem = three(47 * us + half_us);

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "analysis/by_clock.hpp"
+#include "analysis/cut_through_ports.hpp"
 #include "analysis/cyclic_arrivals.hpp"
 #include "analysis/flow_sources.hpp"
 #include "models/egress/class_set.hpp"
@@ -26,7 +27,8 @@ class FixedPoint {
     for (const Hop& hop : graph.hops)
       if (hop.ats) ats_groups_[hop.ats->group].push_back(static_cast<std::uint32_t>(&hop - graph.hops.data()));
     for (std::uint32_t p = 0; p < graph.ports.size(); ++p) lay_out_traffic(p);
-    for (std::uint32_t p = 0; p < graph.ports.size(); ++p) header_after_[p] = header_of_all(p);
+    for (std::uint32_t p = 0; p < graph.ports.size(); ++p) header_after_[p] = header_of_all(resolved, graph, p);
+    for (std::uint32_t h = 0; h < graph.hops.size(); ++h) ahead_.push_back(header_ahead(resolved, graph, h));
   }
 
   NetworkResult run() {
@@ -105,44 +107,9 @@ class FixedPoint {
       const GraphPort& port = graph_.ports[hop.port];
       Ps comes = last;
       for (const std::uint32_t parent : hop.parents)
-        comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, hop.beyond, r_.plan.nodes[port.node.value].greatest_forwarding_delay().ps());
+        comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, hop.beyond, r_.plan.nodes[port.node.value].greatest_forwarding_delay().ps()) - ahead_[h].value_or(0);
       result_.hops[h].leaves = ArrivalPhase{sum(comes, port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count), flow.produced->period, 0};
     }
-  }
-
-  /// Whether a port cuts all frames through whatever happens: they come by one link of the same rate, which keeps them a gap apart, and nothing else asks for the port. Then the
-  /// last bit leaves so much after it has come as the header takes to be there.
-  std::optional<Ps> header_of_all(std::uint32_t p) const {
-    const GraphPort& port = graph_.ports[p];
-    const PortModel& model = graph_.models[p];
-    const models::PortConfig& config = *model.config;
-    const models::NodePlan& node = r_.plan.nodes[port.node.value];
-    if (port.hops.empty() || !model.counts_packets || config.preemption || config.untagged || !is_plain(config.shaping) || !model.more_gates.empty() || model.cqf || node.ingress) return std::nullopt;
-    if (!gptp_messages(r_, port.node).empty() || r_.plan.links[port.link].may_fail) return std::nullopt;   // a header that comes while the link is down is a frame that is stored
-    for (std::size_t other = 0; other < graph_.ports.size(); ++other)   // eligibility times ask for the last bit
-      if (graph_.ports[other].node == port.node && graph_.models[other].config->shaping.timed() != 0) return std::nullopt;
-    const Ps header = port.octet_time * (node.cut_through_header + models::vlan_tag).count;
-    for (const std::uint32_t h : port.hops) {
-      const Hop& hop = graph_.hops[h];
-      const models::StreamIndex stream = graph_.flows[hop.flow].stream;
-      if (!hop.headers_come_first || hop.parents.size() != 1 || hop.is_copied_here || hop.lowest_class != hop.highest_class || !hop.unsupported.empty()) return std::nullopt;
-      const std::uint32_t from = graph_.hops[hop.parents.front()].port;
-      if (from != graph_.hops[graph_.hops[port.hops.front()].parents.front()].port) return std::nullopt;
-      const GraphPort& link = graph_.ports[from];
-      if (link.octet_time != port.octet_time || link.may_double || graph_.models[from].config->preemption) return std::nullopt;
-      for (std::uint32_t before = h; !graph_.hops[before].parents.empty();) {   // the header of an untagged frame is shorter
-        before = graph_.hops[before].parents.front();
-        if (graph_.models[graph_.hops[before].port].config->untagged) return std::nullopt;
-      }
-      const bool is_redundant = std::any_of(r_.redundancies.begin(), r_.redundancies.end(), [&](const scenario::ResolvedRedundancy& each) { return each.stream == stream; });
-      if (is_redundant || !r_.plan.streams[stream.value].priority || !models::contains(config.cut_through, hop.highest_class)) return std::nullopt;
-      if (header >= port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count) return std::nullopt;
-    }
-    return header;
-  }
-  static bool is_plain(const models::ShapingConfig& shaping) {
-    const auto is_limited = [](const sim::Octets& sdu) { return sdu.count != 0; };
-    return !shaping.gates && shaping.has_strict_priority_only() && std::none_of(shaping.queue_max_sdu.begin(), shaping.queue_max_sdu.end(), is_limited);
   }
 
   static bool is_held(const Hop& hop) { return hop.ats && hop.ats->is_minded; }
@@ -177,7 +144,9 @@ class FixedPoint {
         const std::optional<CyclicArrival>& cyclic = result_.hops[hops[i]].cyclic;
         traffic_[p].flows[i].cyclic = cyclic ? std::optional(cyclic->comes) : std::nullopt;
       }
-      result_.ports[p] = bound_port(graph_.models[p], traffic_[p]);
+      std::optional<PortBound> cut = bound_cut_through(r_, graph_, p, traffic_[p], result_.hops, ahead_);
+      const bool cuts = cut.has_value();
+      result_.ports[p] = cuts ? std::move(*cut) : bound_port(graph_.models[p], traffic_[p]);
       for (std::size_t i = 0; i < hops.size(); ++i) {
         HopResult& hop = result_.hops[hops[i]];
         const PortFlowBound& bound = result_.ports[p].flows[i];
@@ -190,6 +159,7 @@ class FixedPoint {
         }
         hop.delay = graph_.hops[hops[i]].unsupported.empty() && hop.reason.empty() ? bound.delay : unbounded_ps;
         hop.least_delay = bound.least_delay;
+        if (const auto& ahead = ahead_[hops[i]]; cuts && ahead && is_bounded(hop.delay)) hop.delay = hop.least_delay = hop.delay - *ahead;
         hop.leaves = is_bounded(hop.delay) ? bound.leaves : std::nullopt;
         hop.cycle = is_bounded(hop.delay) ? bound.cycle : std::nullopt;
         note_left(hops[i]);
@@ -293,15 +263,26 @@ class FixedPoint {
            (hop.worst_left < sum(hop.worst, hop.delay) || hop.best_left > sum(hop.best, hop.least_delay));
   }
 
+  /// Whether none of its frames is doubled on the way to the hop. What becomes of them behind it does not matter.
+  bool comes_once(std::uint32_t h, const Flow& flow, Ps own_jitter) const {
+    std::vector<std::uint32_t> before{h};
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const Hop& each = graph_.hops[before[i]];
+      if (graph_.ports[each.port].may_double) return false;
+      const HopResult& known = result_.hops[before[i]];
+      const Ps jitter = i == 0 ? own_jitter : is_bounded(known.worst) ? known.worst - known.best : unbounded_ps;
+      if (each.parents.size() > 1 && !passes_once(flow, jitter)) return false;
+      for (const std::uint32_t parent : each.parents)
+        if (std::find(before.begin(), before.end(), parent) == before.end()) before.push_back(parent);
+    }
+    return true;
+  }
+
   /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.
   std::optional<ArrivalPhase> phase_of(std::uint32_t h, Ps best, Ps worst) const {
     const Hop& hop = graph_.hops[h];
     const Flow& flow = graph_.flows[hop.flow];
-    if (!flow.produced || !is_bounded(worst)) return std::nullopt;
-    for (const std::uint32_t each : flow.hops) {
-      if (graph_.ports[graph_.hops[each].port].may_double) return std::nullopt;
-      if (graph_.hops[each].parents.size() > 1 && !passes_once(flow, is_bounded(result_.hops[each].worst) ? result_.hops[each].worst - result_.hops[each].best : unbounded_ps)) return std::nullopt;
-    }
+    if (!flow.produced || !is_bounded(worst) || !comes_once(h, flow, worst - best)) return std::nullopt;
     // Clocks may drift a little on the way.
     const std::int64_t rate_ppt = std::max(graph_.models[hop.port].clock.rate_ppt, flow.produced->rate_ppt);
     const Ps drift = scaled_up(worst, rate_ppt, one_ppt);
@@ -483,6 +464,7 @@ class FixedPoint {
   std::vector<FrameArrivals> arrivals_;        // by hop
   std::vector<PortTraffic> traffic_;           // by port
   std::vector<std::size_t> line_of_;           // by hop: the link by which it comes to the port, in the port's traffic
+  std::vector<std::optional<Ps>> ahead_;          // by hop: cut through, a frame begins so long before its last bit is there
   std::vector<std::optional<Ps>> header_after_;   // by port: all of its frames are cut through, so long after they have come
   std::vector<bool> is_due_;                   // by port
   std::vector<bool> is_known_;                 // by hop

@@ -103,15 +103,16 @@ class PortAnalysis {
   }
 
   /// What frames that begin before a window of q take of it, by window: of classes that are open then, and the gap
-  /// behind those that have just closed, q itself among them.
-  std::vector<Ps> taken_at_starts(const GateCycle& gates, models::TrafficClass q, bool with_own = true) const {
+  /// behind those that have just closed, q itself among them; without those that are known to be elsewhere.
+  std::vector<Ps> taken_at_starts(const GateCycle& gates, models::TrafficClass q, bool with_own = true,
+                                  models::ClassSet elsewhere = 0) const {
     const std::vector<GateOpening>& windows = gates.windows(q);
     std::vector<Ps> taken(
         windows.size(),
         holds_ ? overhang(gates, q) : 0);  // before a hold the gates of preemptable classes only count as closed
     for (std::size_t w = 0; w < windows.size(); ++w)
       for (models::TrafficClass other = 0; other < models::traffic_class_count; ++other) {
-        if (demands_[other].is_empty() || (other == q && !with_own)) continue;
+        if (demands_[other].is_empty() || (other == q && !with_own) || models::contains(elsewhere, other)) continue;
         // Frames of a class that goes before are counted as they come, whenever they begin.
         const bool is_counted = other != q && goes_before(other, q) && overlap(q, other);
         taken[w] = std::max(taken[w], is_counted ? gap_ : gates.overhang_at(w, q, other, block_of(other, q), gap_));
@@ -246,7 +247,13 @@ class PortAnalysis {
   double taken_by(models::TrafficClass q, const Service& service) const;
   std::vector<Ps> delays_in_shares(models::TrafficClass q, std::string& reason);
   std::optional<SequenceBound> sequence_of(models::TrafficClass q, std::string& reason) const;
-  SequenceWindows windows_of(const GateCycle& gates, models::TrafficClass q) const;
+  bool may_be_sequenced(models::TrafficClass q) const;
+  std::optional<std::vector<SequencedFlow>> sequenced_flows(models::TrafficClass q, std::string& reason) const;
+  std::optional<SequenceBound> sequence_in_windows(models::TrafficClass q, const std::vector<SequencedFlow>& flows,
+                                                   const OthersWork& others, models::ClassSet elsewhere,
+                                                   std::string& reason) const;
+  std::optional<SequenceBound> sequence_apart(models::TrafficClass q) const;
+  SequenceWindows windows_of(const GateCycle& gates, models::TrafficClass q, models::ClassSet elsewhere) const;
   std::vector<Ps> delays_in_windows(models::TrafficClass q) const;
   std::vector<Ps> waits_at_phases(models::TrafficClass q, const Service& service, Ps busy) const;
   void refine_by_phases(models::TrafficClass q);

@@ -1,4 +1,6 @@
 // Frames at known times: what the schedule of the gates makes of them, and, where there are no gates, who can meet whom.
+#include <numeric>
+
 #include "analysis/phased_bound.hpp"
 #include "analysis/port_analysis.hpp"
 #include "analysis/scheduled_bound.hpp"
@@ -19,21 +21,25 @@ bool is_at_known_time(const PortFlow& flow) { return flow.phase && flow.phase->c
 }  // namespace
 
 /// The windows of a class with what others may take of each: frames of classes whose gates are open when it opens, and the gap behind those of others.
-SequenceWindows PortAnalysis::windows_of(const GateCycle& gates, TrafficClass q) const {
+SequenceWindows PortAnalysis::windows_of(const GateCycle& gates, TrafficClass q, models::ClassSet elsewhere) const {
   SequenceWindows made;
   made.cycle = gates.cycle();
   made.base = gates.base();
   made.error = model_.clock.error;
   made.is_always_open = gates.is_always_open(q);
-  const std::vector<Ps> taken = taken_at_starts(gates, q, false);  // each frame of its own counts with its gap
+  const std::vector<Ps> taken = taken_at_starts(gates, q, false, elsewhere);   // each frame of its own counts with its gap
   for (std::size_t w = 0; w < taken.size(); ++w)
     made.windows.push_back({gates.windows(q)[w].from, gates.windows(q)[w].until, taken[w]});
   return made;
 }
 
-/// Where all frames of a gated class come at known times, on the time that the gates follow too: each into its window. The reason if they may miss them.
-std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::string& reason) const {
-  if (!is_gated(q) || is_shaped(q) || is_preemptable(q) || model_.cqf || config_.shaping.is_timed(q) || !model_.clock.is_synchronised || !model_.counts_packets) return std::nullopt;
+bool PortAnalysis::may_be_sequenced(TrafficClass q) const {
+  return is_gated(q) && !is_shaped(q) && !is_preemptable(q) && !model_.cqf && !config_.shaping.is_timed(q) &&
+         model_.clock.is_synchronised && model_.counts_packets;
+}
+
+/// The flows of a class all of whose frames come at known times.
+std::optional<std::vector<SequencedFlow>> PortAnalysis::sequenced_flows(TrafficClass q, std::string& reason) const {
   std::vector<SequencedFlow> flows;
   bool are_known = true;
   for (const PortFlow& flow : traffic_.flows) {
@@ -45,28 +51,18 @@ std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::stri
     const Ps work = octet_ * models::wire_length(flow.frame).count;
     flows.push_back({{flow.phase->first, flow.phase->period, flow.phase->width, stretched(work)}, stretched(work - gap_), flow.train, flow.rank});
   }
-  if (!are_known) {
-    if (!flows.empty()) reason = "others of its class come at times that are not known, and into its windows";
-    return std::nullopt;
-  }
-  // A lower class may have begun a frame just before, and a higher one may have a backlog then.
-  Ps blocked = 0;
-  std::vector<TrafficClass> higher;
-  for (TrafficClass other = 0; other < traffic_class_count; ++other) {
-    if (other == q || demands_[other].is_empty() || !overlap(q, other)) continue;
-    if (goes_before(other, q)) higher.push_back(other);
-    else blocked = std::max(blocked, block_of(other, q));
-  }
-  OthersWork others;
-  if (blocked > 0 || !higher.empty())
-    others = [&](Ps length) {
-      Ps all = blocked;
-      for (const TrafficClass h : higher) all = sum(all, demands_[h].work(sum(length, class_delay_[h])));
-      return stretched(all);
-    };
+  if (are_known) return flows;
+  if (!flows.empty()) reason = "others of its class come at times that are not known, and into its windows";
+  return std::nullopt;
+}
+
+/// By each gate list of the port, the worst of all.
+std::optional<SequenceBound> PortAnalysis::sequence_in_windows(TrafficClass q, const std::vector<SequencedFlow>& flows,
+                                                               const OthersWork& others, models::ClassSet elsewhere,
+                                                               std::string& reason) const {
   std::optional<SequenceBound> made;
   for (const GateCycle& gates : gates_) {
-    const SequenceWindows windows = windows_of(gates, q);
+    const SequenceWindows windows = windows_of(gates, q, elsewhere);
     std::optional<SequenceBound> next = bound_sequence(flows, windows, others, reason);
     if (!next) return std::nullopt;
     if (!made) {
@@ -82,6 +78,74 @@ std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::stri
     made->is_exact = made->is_exact && next->is_exact;
   }
   return made;
+}
+
+/// Classes that are open together, all of whose frames come at known times: each as if it were alone, if then no frame
+/// is on the medium, or may start, while one of another class is. The first frame that met another one would have to
+/// start as if alone, and so would the other one: so none does.
+std::optional<SequenceBound> PortAnalysis::sequence_apart(TrafficClass q) const {
+  if (config_.preemption) return std::nullopt;
+  models::ClassSet together = models::with(0, q);
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (TrafficClass a = 0; a < traffic_class_count; ++a)
+      for (TrafficClass b = 0; b < traffic_class_count && contains(together, a); ++b) {
+        if (contains(together, b) || demands_[b].is_empty() || !overlap(a, b)) continue;
+        together = models::with(together, b);
+        grows = true;
+      }
+  }
+  struct Occupied {
+    TrafficClass of;
+    Ps from, length, period;
+  };
+  std::vector<Occupied> all;
+  std::optional<SequenceBound> own;
+  std::string reason;
+  for (TrafficClass c = 0; c < traffic_class_count; ++c) {
+    if (!contains(together, c)) continue;
+    const auto flows = may_be_sequenced(c) ? sequenced_flows(c, reason) : std::nullopt;
+    if (!flows) return std::nullopt;
+    auto alone = sequence_in_windows(c, *flows, {}, together, reason);
+    if (!alone) return std::nullopt;
+    for (std::size_t f = 0; f < flows->size(); ++f) {
+      const SequencedTimes& times = alone->flows[f];
+      const Ps from = (*flows)[f].first + times.earliest;
+      all.push_back({c, from, times.latest - times.earliest + (*flows)[f].work, (*flows)[f].period});
+    }
+    if (c == q) own = std::move(alone);
+  }
+  for (const Occupied& a : all)
+    for (const Occupied& b : all) {
+      if (a.of >= b.of) continue;
+      const Ps common = std::gcd(a.period, b.period);
+      const Ps apart = ((b.from - a.from) % common + common) % common;
+      if (a.length > apart || b.length > common - apart) return std::nullopt;
+    }
+  return own;
+}
+
+/// Where all frames of a gated class come at known times, on the time that the gates follow too: each into its window. The reason if they may miss them.
+std::optional<SequenceBound> PortAnalysis::sequence_of(TrafficClass q, std::string& reason) const {
+  if (!may_be_sequenced(q)) return std::nullopt;
+  const auto flows = sequenced_flows(q, reason);
+  if (!flows) return std::nullopt;
+  // A lower class may have begun a frame just before, and a higher one may have a backlog then.
+  Ps blocked = 0;
+  std::vector<TrafficClass> higher;
+  for (TrafficClass other = 0; other < traffic_class_count; ++other) {
+    if (other == q || demands_[other].is_empty() || !overlap(q, other)) continue;
+    if (goes_before(other, q)) higher.push_back(other);
+    else blocked = std::max(blocked, block_of(other, q));
+  }
+  if (blocked == 0 && higher.empty()) return sequence_in_windows(q, *flows, {}, 0, reason);
+  if (auto apart = sequence_apart(q)) return apart;
+  const OthersWork others = [&](Ps length) {
+    Ps all = blocked;
+    for (const TrafficClass h : higher) all = sum(all, demands_[h].work(sum(length, class_delay_[h])));
+    return stretched(all);
+  };
+  return sequence_in_windows(q, *flows, others, 0, reason);
 }
 
 /// Where frames of a gated class come at known phases, on the time that the gates follow too: how long each of these flows waits. Empty otherwise.

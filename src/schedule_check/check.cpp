@@ -88,7 +88,7 @@ class Checker {
     if (said.open.ps() > earliest || said.open.ps() <= earliest - ns || said.close.ps() < latest || said.close.ps() >= latest + ns)
       say("the window of {} is from {} ps to {} ps, not from {} ps to {} ps", name(s, h), said.open.ps(), said.close.ps(), earliest, latest);
     std::int64_t there = stream(s).release.ps();
-    if (at.previous) there = window(s, *at.previous).start.ps() + hop(s, *at.previous).transmission.ps() + hop(s, *at.previous).behind.ps();
+    if (at.previous) there = window(s, *at.previous).start.ps() + hop(s, *at.previous).transmission.ps() + hop(s, *at.previous).behind.ps() - at.ahead.ps();
     if (start < there) return say("{} begins at {} ps, but cannot be there before {} ps", name(s, h), start, there);
     if (at.previous ? start == there : start < there + ns) return;
     // It waits: for the frame before it in its train, or the copy before it, which must end just then.
@@ -205,9 +205,10 @@ class Checker {
         return true;
       });
     }
-    // The other way: what each entry says has its reason. Where a device has limits, time of the other classes may be missing; and a class may be open for nobody while they are closed, if
+    // The other way: what each entry says has its reason. Where a list has limits, and of so many windows one has, time of the other classes may be missing; and a class may be open for nobody while they are closed, if
     // none of its frames could use that to leave at another time.
-    const bool has_limits = problem_.ports[p].limits != scenario::ListLimits{};
+    const bool takes_too_many = passages.size() * 3 >= problem_.ports[p].limits.entries;   // a guard, a window, time of the others
+    const bool has_limits = problem_.ports[p].limits != scenario::ListLimits{} || takes_too_many;
     const bool may_be_wider = has_limits && !has_waiting(passages);
     int128 begin = 0;
     for (const GateList::Entry& entry : list.entries) {

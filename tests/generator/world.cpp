@@ -380,6 +380,7 @@ std::span<const Rule> network_rules() {
       {.key = "switch.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
       {.key = "switch.queues", .feature = Feature::queue_limits, .percent = 80},
       {.key = "generator.gate_limits", .feature = Feature::gates, .percent = 30},
+      {.key = "generator.host_gate_limits", .feature = Feature::gates, .percent = 10},
       {.key = "host.gate_limits", .feature = Feature::gates, .percent = 10},
       {.key = "station.gate_limits", .feature = Feature::gates, .percent = 30},
       {.key = "switch.gate_limits", .feature = Feature::gates, .percent = 30},

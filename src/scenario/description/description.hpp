@@ -270,6 +270,7 @@ struct Generator {
   std::string station_prefix = "st";
   std::optional<Latency> forwarding_jitter = {};
   std::optional<GateLimits> gate_limits = {};
+  std::optional<GateLimits> host_gate_limits = {};
   std::optional<Octets> mtu = {};
   bool operator==(const Generator&) const = default;
 };

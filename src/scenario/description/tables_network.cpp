@@ -393,6 +393,7 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::egress>("egress", "Gates and shapers of all ports of the switches or stations.",
                                    {.max_items = 1}),
       optional<&Generator::gate_limits>("gate_limits", "What the gates of the switches or stations can do."),
+      optional<&Generator::host_gate_limits>("host_gate_limits", "What the gates of the hosts can do."),
       optional<&Generator::mtu>("mtu", "Of all its nodes, as that of a node.",
                                 {.min = models::maximum_msdu, .max = models::largest_msdu}),
       optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches or stations."),

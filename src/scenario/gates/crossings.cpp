@@ -70,7 +70,7 @@ void Crossings::follow(std::uint32_t s) {
     Duration start = is_gated ? ceil_ns(each.release) : each.release;
     if (at.previous) {
       TAKT_CHECK(*at.previous < h, "hops stand in the order of the way");
-      start = windows_[s][*at.previous].start + each.hops[*at.previous].transmission + each.hops[*at.previous].behind;
+      start = windows_[s][*at.previous].start + each.hops[*at.previous].transmission + each.hops[*at.previous].behind - at.ahead;
     }
     start += at.wait;
     for (const Crossing& other : at_[at.port])

@@ -140,7 +140,6 @@ class Extraction {
     const models::TrafficClass q = class_of(stream, config);
     const std::string port = json::quote(r_.topology.nodes[from].name + " to " + r_.topology.nodes[to].name);
     std::string problem;
-    if (models::contains(config.cut_through, q)) problem = "cut-through at " + port + ", which makes its delays depend on other traffic";
     if (!std::holds_alternative<models::StrictPriority>(config.shaping.selection[q])) problem = "a shaper of its class at " + port;
     if (config.shaping.is_shared(q)) problem = "a share of the bandwidth (ETS) for its class at " + port + ", which makes its delays depend on other traffic";
     if (config.preemption && models::contains(config.preemption->preemptable, q)) problem = "a preemptable class at " + port;
@@ -156,10 +155,20 @@ class Extraction {
     hop.traffic_class = q;
     hop.transmission = octet * (models::preamble_and_sfd + frame).count;
     hop.behind = at.link->delay + r_.plan.nodes[to].greatest_forwarding_delay();   // more than the least only in the listener
+    if (previous && models::contains(config.cut_through, q) && !config.untagged) {
+      const ScheduledHop& before = made.hops[*previous];
+      const GatedPort& link = problem_.ports[before.port];
+      // The header of a frame of another rate, or without its tag, comes at another time.
+      if (r_tagged || is_untagged(link)) return refuse(stream, "cut-through at " + port + " of frames whose header is another one"), false;
+      const Octets header = r_.plan.nodes[from].cut_through_header + (plan.priority ? models::vlan_tag : Octets{0});
+      if (link.gap == problem_.ports[hop.port].gap) hop.ahead = std::max(Duration(), before.transmission - octet * header.count);
+    }
     made.hops.push_back(hop);
     scheduled_classes_[hop.port] = models::with(scheduled_classes_[hop.port], q);
     return true;
   }
+
+  bool is_untagged(const GatedPort& port) const { return config_of(*ends_.at({port.node.value, port.port}).end).untagged; }
 
   std::uint32_t port_index(std::uint32_t from, std::uint32_t to, const End& at, Duration octet) {
     const auto [found, is_new] = ports_.emplace(key_of(at), static_cast<std::uint32_t>(problem_.ports.size()));

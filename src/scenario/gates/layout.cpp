@@ -50,8 +50,7 @@ class Layout {
     for (const Crossing& c : crossings_.at(p)) {
       const std::int64_t period = stream(c).period.ps();
       const sim::int128 common = static_cast<sim::int128>(cycle.ps()) / std::gcd(cycle.ps(), period) * period;
-      // Each window takes an entry at least.
-      if (common > longest_gate_cycle.ps() || windows_in(common) > static_cast<sim::int128>(most_gate_entries)) {
+      if (common > longest_gate_cycle.ps() || windows_in(common) > most_windows_of_a_list) {
         const auto ps = static_cast<std::int64_t>(std::min<sim::int128>(common, INT64_MAX));
         layout_.conflicts.push_back({GateConflict::Kind::cycle_too_long, crossings_.at(p).front().stream, c.stream, p, {}, {}, {}, {}, Duration::from_ps(ps),
                                      static_cast<std::uint64_t>(std::min<sim::int128>(windows_in(common), INT64_MAX))});
@@ -142,13 +141,15 @@ class Layout {
       if (!list.entries.empty() && list.entries.back().open == states) list.entries.back().interval += interval;
       else list.entries.push_back({states, interval});
     }
-    if (problem_.ports[p].limits != ListLimits{}) {
-      FittedList fitted = fit_list(list, scheduled, has_waiting(p), problem_.ports[p].limits);
-      if (fitted.obstacle == ListObstacle::none) list = std::move(fitted.list);
-      else layout_.conflicts.push_back({GateConflict::Kind::limits, crossings_.at(p).front().stream, crossings_.at(p).back().stream, p, {}, {}, {}, {}, list.cycle, fitted.needed, fitted.obstacle});
+    FittedList fitted = fit_list(list, scheduled, has_waiting(p), problem_.ports[p].limits);
+    if (fitted.obstacle == ListObstacle::none) {
+      list = std::move(fitted.list);
       return;
     }
-    if (list.entries.size() <= most_gate_entries) return;
+    if (problem_.ports[p].limits != ListLimits{}) {
+      layout_.conflicts.push_back({GateConflict::Kind::limits, crossings_.at(p).front().stream, crossings_.at(p).back().stream, p, {}, {}, {}, {}, list.cycle, fitted.needed, fitted.obstacle});
+      return;
+    }
     const Crossing& shortest = *std::min_element(crossings_.at(p).begin(), crossings_.at(p).end(), [&](Crossing a, Crossing b) { return stream(a).period < stream(b).period; });
     const Crossing& longest = *std::max_element(crossings_.at(p).begin(), crossings_.at(p).end(), [&](Crossing a, Crossing b) { return stream(a).period < stream(b).period; });
     layout_.conflicts.push_back({GateConflict::Kind::cycle_too_long, shortest.stream, longest.stream, p, {}, {}, {}, {}, list.cycle, list.entries.size()});

@@ -47,23 +47,30 @@ class Fitting {
     return 2 * closed_.size() + 1 - (closed_.front().begin == 0 ? 1 : 0) - (closed_.back().end == cycle_ ? 1 : 0);
   }
 
-  /// Gives up the shortest time of the others, for each entry that this saves. False if it is their last.
-  bool give_up_shortest() {
-    std::size_t gaps = 0, best = 0;
-    std::int64_t least_price = INT64_MAX;
+  /// Gives up the shortest times of the others, for each entry that this saves, until so many entries do; never the
+  /// last one.
+  void give_up(std::size_t most) {
+    struct Gap {
+      std::size_t before = 0;     ///< stretches in front of it
+      std::int64_t price = 0;
+    };
+    std::vector<Gap> gaps;
     for (std::size_t i = 0; i <= closed_.size(); ++i) {
       const std::int64_t from = i == 0 ? 0 : closed_[i - 1].end, until = i == closed_.size() ? cycle_ : closed_[i].begin;
-      if (from == until) continue;
-      ++gaps;
       const bool is_at_edge = i == 0 || i == closed_.size();   // saves one entry, not two
-      const std::int64_t price = is_at_edge ? 2 * (until - from) : until - from;
-      if (price < least_price) least_price = price, best = i;
+      if (from < until) gaps.push_back({i, is_at_edge ? 2 * (until - from) : until - from});
     }
-    if (gaps < 2) return false;
-    if (best == 0) closed_.front().begin = 0;
-    else closed_[best - 1].end = best == closed_.size() ? cycle_ : closed_[best].begin;
+    if (gaps.empty()) return;
+    std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.price < b.price; });
+    const std::size_t stretches = closed_.size();
+    std::size_t left = entries();
+    for (std::size_t g = 0; g + 1 < gaps.size() && left > most; ++g) {
+      const std::size_t i = gaps[g].before;
+      left -= i == 0 || i == stretches ? 1 : 2;
+      if (i == 0) closed_.front().begin = 0;
+      else closed_[i - 1].end = i == stretches ? cycle_ : closed_[i].begin;
+    }
     join();
-    return true;
   }
 
   GateList list() const {
@@ -117,8 +124,7 @@ FittedList fit_list(const GateList& list, models::GateStates scheduled, bool has
   if (has_waiting) return {list.entries.size() > limits.entries ? Obstacle::entries : Obstacle::waiting, {}, list.entries.size()};
   Fitting fitting(list, scheduled, limits);
   fitting.lengthen();
-  while (!fitting.is_without_time() && fitting.entries() > limits.entries && fitting.give_up_shortest()) {
-  }
+  if (!fitting.is_without_time()) fitting.give_up(limits.entries);
   if (fitting.is_without_time() || list.cycle < limits.least_interval) return {Obstacle::no_time, {}, 0};
   if (fitting.entries() > limits.entries) return {Obstacle::entries, {}, fitting.entries()};
   return {Obstacle::none, fitting.list(), 0};

@@ -46,6 +46,7 @@ struct ScheduledHop {
   sim::Duration transmission;               ///< preamble to FCS
   sim::Duration behind;                     ///< last bit sent to ready at the next port: propagation and forwarding delay
   sim::Duration wait{};                     ///< behind another copy of the same frame; of streams with windows those at their talker tell it
+  sim::Duration ahead{};                    ///< cut through: it begins so long before its last bit is there
   bool is_merged = false;                   ///< behind a merge of copies: of the hops of its stream at this port each frame takes one
   bool operator==(const ScheduledHop&) const = default;
 };
@@ -67,6 +68,9 @@ struct GateProblem {
   std::vector<ScheduledStream> streams;
   bool operator==(const GateProblem&) const = default;
 };
+
+/// Windows that are looked at for one list; where they take more entries than a port has, they are merged.
+inline constexpr std::int64_t most_windows_of_a_list = 1 << 16;
 
 /// Greatest cycle of a gate control list.
 inline constexpr sim::Duration longest_gate_cycle = sim::Duration::from_ps(3'600'000'000'000'000);
@@ -125,6 +129,7 @@ struct GateConflict {
 struct GatePlan {
   GateProblem problem;
   GateSolution schedule;
+  sim::Duration begins{};                   ///< when the last of its lists does
 };
 
 }  // namespace takt::scenario

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "models/ethernet/sizes.hpp"
+#include "scenario/gates/beginning.hpp"
 #include "scenario/idle/usage.hpp"
 #include "scenario/resolve/control_list.hpp"
 #include "scenario/resolve/egress.hpp"
@@ -25,6 +26,7 @@ class GatesTeller {
     if (usage_.is_after_the_end(std::max(begins, gates.base_time)))
       return warn_once(diagnostics_, gates.where.at("base_time"), "gates that begin after the end of the simulation",
                        {json::to_text(std::max(begins, gates.base_time)), "less than " + json::to_text(usage_.resolved().scenario.duration)});
+    before_clocks(gates, ports, std::max(begins, gates.base_time));
     const bool is_changed = std::any_of(ports.begin(), ports.end(), [](const PortUse* port) { return port->gates.size() > 1; });
     if (gates.extension > Duration() && !is_changed)
       warn_once(diagnostics_, gates.where.at("extension"), "an extension that nothing needs", {"no other list for " + usage_.name(ports), "a \"set_gates\" of the script"});
@@ -42,6 +44,17 @@ class GatesTeller {
   }
 
  private:
+  /// Clocks that are off open them at the wrong times.
+  void before_clocks(const Gates& gates, const Ports& ports, Duration begin) {
+    const Resolved& resolved = usage_.resolved();
+    const auto from = clocks_synchronised_from(resolved.scenario);
+    const auto is_led = [&](const PortUse* port) { return static_cast<bool>(resolved.plan.gptp[port->node]); };
+    if (!from || resolved.plan.gptp.empty() || begin >= *from || *from >= resolved.scenario.duration || std::none_of(ports.begin(), ports.end(), is_led)) return;
+    warn_once(diagnostics_, gates.where.at("base_time"), "gates that run before clocks are synchronised",
+              {"lists of " + usage_.name(ports) + " from " + json::to_text(begin) + " on, and clocks from " + json::to_text(*from) + " on: a frame that misses its window then stands before all that follow",
+               "a \"base_time\" of " + json::to_text(*from) + " or later"});
+  }
+
   static Duration cycle_of(const Gates& gates) {
     Duration sum;
     for (const GateEntry& entry : gates.entries) sum += entry.interval;

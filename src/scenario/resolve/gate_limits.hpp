@@ -10,6 +10,9 @@ namespace takt::scenario {
 /// What is told of gates that a device cannot have.
 inline constexpr const char* beyond_the_device = "gates beyond what the device can do";
 
+/// What is told of a list that no port has.
+inline constexpr const char* too_long_a_cycle = "gates with too long a cycle";
+
 /// What a port of the node takes of automatic gates.
 ListLimits list_limits_of(const TopologyNode& node);
 

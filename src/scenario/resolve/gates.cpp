@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scenario/gates/beginning.hpp"
 #include "scenario/gates/layout.hpp"
 #include "scenario/resolve/egress.hpp"
 #include "scenario/resolve/gate_limits.hpp"
@@ -52,12 +53,28 @@ class GateResolver {
     NetworkGates listed;
     listed.where = gates_.where;
     listed.plan = GatePlanning::listed;
-    for (std::size_t p = 0; p < problem.ports.size(); ++p) listed.lists.push_back(list_of(problem.ports[p], layout.schedule.lists[p]));
+    Duration begins;
+    for (std::size_t p = 0; p < problem.ports.size(); ++p) {
+      const BegunList begun = begun_at(problem, p, layout.schedule.lists[p]);
+      begins = std::max(begins, begun.base_time);
+      listed.lists.push_back(list_of(problem.ports[p], layout.schedule.lists[p].cycle, begun));
+    }
     gates_ = std::move(listed);
-    r_.gates = GatePlan{std::move(problem), std::move(layout.schedule)};
+    r_.gates = GatePlan{std::move(problem), std::move(layout.schedule), begins};
   }
 
-  SetGates list_of(const GatedPort& port, const GateList& list) const {
+  /// When clocks are synchronised; lists that would begin after the end begin at the start.
+  BegunList begun_at(const GateProblem& problem, std::size_t port, const GateList& list) const {
+    const Duration from = clocks_synchronised_from(r_.scenario).value_or(Duration());
+    if (from == Duration() || from >= r_.scenario.duration || list.entries.empty()) return {{}, list.entries};
+    models::GateStates scheduled = 0;
+    for (const ScheduledStream& stream : problem.streams)
+      for (const ScheduledHop& hop : stream.hops)
+        if (hop.port == port) scheduled = models::with(scheduled, hop.traffic_class);
+    return begun_list(list, problem.ports[port], scheduled, from);
+  }
+
+  SetGates list_of(const GatedPort& port, Duration cycle, const BegunList& list) const {
     SetGates set;
     set.where = gates_.where;
     set.node = r_.topology.nodes[port.node.value].name;
@@ -67,7 +84,8 @@ class GateResolver {
     if (std::ranges::count(neighbours, peer.node, &Neighbour::node) > 1)
       *set.to += ":" + std::to_string(peer.their_port);
     set.gates.where = gates_.where;
-    set.gates.cycle = list.cycle;
+    set.gates.cycle = cycle;
+    set.gates.base_time = list.base_time;
     for (const GateList::Entry& entry : list.entries) {
       GateEntry made;
       made.where = gates_.where;
@@ -99,7 +117,10 @@ class GateResolver {
     }
   }
 
-  json::Place limits_place(const GatedPort& port) const { return ports_of(r_.topology.nodes[port.node.value].description).gate_limits->where.place(); }
+  json::Place limits_place(const GatedPort& port) const {
+    const auto& limits = ports_of(r_.topology.nodes[port.node.value].description).gate_limits;
+    return limits ? limits->where.place() : gates_.where.place();
+  }
 
   struct Grouped {
     GateConflict::Kind kind = GateConflict::Kind::overlap;
@@ -112,8 +133,10 @@ class GateResolver {
   void tell(const Grouped& group, std::string found) {
     switch (group.kind) {
       case GateConflict::Kind::cycle_too_long:
-        diagnostics_.error(group.place, "gates with too long a cycle",
-                           {std::move(found), "periods with a common multiple that takes at most " + std::to_string(most_gate_entries) + " entries and " + json::to_text(longest_gate_cycle)});
+        diagnostics_.error(group.place, too_long_a_cycle,
+                           {std::move(found), "periods with a common multiple of at most " + json::to_text(longest_gate_cycle) + " and " +
+                                std::to_string(most_windows_of_a_list) + " windows, and frames that wait for no window where there are more than " +
+                                std::to_string(most_gate_entries) + " entries"});
         return;
       case GateConflict::Kind::limits:
         diagnostics_.error(group.place, beyond_the_device, {std::move(found), "limits that leave room for the scheduled frames, or fewer or shorter of these"});
@@ -135,7 +158,7 @@ class GateResolver {
     const std::string at = "at " + json::quote(problem.ports[conflict.port].name) + " ";
     const auto from_to = [](Duration from, Duration until) { return json::to_text(from) + " to " + json::to_text(until); };
     if (conflict.kind == GateConflict::Kind::cycle_too_long)
-      return at + std::to_string(conflict.entries) + " entries or more in a cycle of " + json::to_text(conflict.cycle) + ", with " + first + " every " +
+      return at + std::to_string(conflict.entries) + " windows or entries in a cycle of " + json::to_text(conflict.cycle) + ", with " + first + " every " +
              json::to_text(problem.streams[conflict.first].period) + " and " + second + " every " + json::to_text(problem.streams[conflict.second].period);
     if (conflict.kind == GateConflict::Kind::order) {
       const auto when = [&](Duration from, Duration until) { return from == until ? "at " + json::to_text(from) : "from " + from_to(from, until); };

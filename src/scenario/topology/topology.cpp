@@ -135,7 +135,8 @@ class Builder {
     switch (kind) {
       case models::NodeKind::host:
         return HostNode{
-            {generator.traffic_classes, generator.queues, {}, {}, generator.mtu}, end_station, generator.where};
+            {generator.traffic_classes, generator.queues, {}, generator.host_gate_limits, generator.mtu}, end_station,
+            generator.where};
       case models::NodeKind::bridge:
         return SwitchNode{ports, relay, generator.where};
       case models::NodeKind::station:

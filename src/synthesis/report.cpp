@@ -16,6 +16,7 @@ std::vector<std::string> left_over(const ScenarioSchedule& answer) {
   for (const schedule::LeftOver& each : answer.left_over) names.push_back(answer.instance->streams[each.stream].name);
   return names;
 }
+std::optional<std::string> proof(const ScenarioSchedule& answer) { return answer.proof.empty() ? std::nullopt : std::optional(answer.proof); }
 std::optional<sim::Duration> slack(const ScenarioSchedule& answer) { return answer.slack ? std::optional(answer.slack->margin) : std::nullopt; }
 std::optional<std::string> slack_end(const ScenarioSchedule& answer) { return answer.slack ? std::optional(answer.slack->with_more) : std::nullopt; }
 constexpr const char* states[] = {"kept", "broken", "unbounded"};
@@ -26,6 +27,7 @@ std::string in_us(sim::Duration time) { return fmt::format("{:.6g} us", static_c
 std::string line_of(const StreamRequirement& requirement) {
   std::string text = fmt::format("  {}: {}", state(requirement), requirement.text);
   if (requirement.bound) text += ", the bound is " + in_us(*requirement.bound);
+  if (requirement.simulated && requirement.limit && *requirement.simulated > *requirement.limit) text += ", " + in_us(*requirement.simulated) + " in its run";
   if (requirement.state == StreamRequirement::State::unbounded && !requirement.reason.empty()) text += " (" + requirement.reason + ")";
   return text + "\n";
 }
@@ -36,8 +38,9 @@ const json::Record& describe(json::Type<StreamRequirement>) {
   static constexpr json::Output outputs[] = {
       json::output<&StreamRequirement::text>("requirement", "What is required, in words."),
       json::output<&StreamRequirement::stream>("stream", "Of which stream; * of all."),
-      json::output<&state>("state", "kept, broken (the bound exceeds it; some run may be better) or unbounded (nothing is known)."),
+      json::output<&state>("state", "kept, broken (in the run, or the bound exceeds it, and some run may be better) or unbounded (nothing is known)."),
       json::output<&StreamRequirement::bound>("bound_ps", "What is bounded, of a time; null if there is no bound."),
+      json::output<&StreamRequirement::simulated>("simulated_ps", "The greatest of a time in the run of the schedule; null if there was no run."),
       json::output<&StreamRequirement::limit>("limit_ps", "What is required, of a time."),
       json::output<&StreamRequirement::reason>("reason", "Why it is not kept; empty if it is, or if the bound says so."),
   };
@@ -60,7 +63,8 @@ const json::Record& describe(json::Type<JudgedStream>) {
 const json::Record& describe(json::Type<ScenarioSchedule>) {
   static constexpr json::Output outputs[] = {
       json::output<&verdict>("verdict", "scheduled, infeasible or undecided."),
-      json::output<&ScenarioSchedule::how>("how", "With given paths or searched ones; of an undecided scenario what stood in the way."),
+      json::output<&ScenarioSchedule::how>("how", "With given paths or searched ones; of an undecided scenario what stood in the way; of an infeasible one the kind of its certificate."),
+      json::output_if_any<&proof>("proof", "Why there is no schedule.", "infeasible"),
       json::output_if_any<&ScenarioSchedule::most_entries>("gate_entries", "Entries of the longest gate control list.", "scheduled"),
       json::output_if_any<&ScenarioSchedule::clock_margin>("clock_margin", "The margin \"auto\", and what it is made of.", "with \"margin\": \"auto\""),
       json::output_if_any<&slack>("slack_ps", "The greatest clock error that the schedule survives, with --objective slack.", "with --objective slack"),
@@ -79,6 +83,7 @@ std::string text_of(const std::string& name, const ScenarioSchedule& answer) {
   std::string text = fmt::format("{}: {}{}", name, verdict(answer), answer.how.empty() ? "" : " (" + answer.how + ")");
   if (answer.verdict != schedule::Decision::Verdict::scheduled) {
     text += "\n";
+    if (!answer.proof.empty()) text += "  " + answer.proof + "\n";
     for (const StreamRequirement& each : answer.requirements) text += line_of(each);
     for (const std::string& each : left_over(answer)) text += "  left over: " + json::quote(each) + "\n";
     return text;

@@ -74,9 +74,9 @@ std::set<Duration> guessed_margins(const scenario::Resolved& without, const Netw
     if (found == lists.end() || !found->second->cycle) continue;
     const std::int64_t cycle = found->second->cycle->ps();
     const Duration begin = Duration::from_ps((window.open.ps() % cycle + cycle) % cycle);
-    Duration at;
+    Duration at = found->second->base_time;
     for (const scenario::GateEntry& entry : found->second->entries) {
-      if (at == begin && states_of(entry) == models::with(models::ClassSet{0}, hop.traffic_class)) {
+      if (at % *found->second->cycle == begin && states_of(entry) == models::with(models::ClassSet{0}, hop.traffic_class)) {
         const Duration margin = entry.interval - (window.close - window.open);
         if (margin > Duration()) margins.insert(margin);
       }

@@ -171,7 +171,7 @@ class Placing {
       stream.offset->is_auto = true;
       stream.path.reset();
     }
-    instance_ = instance_of(streams_alone ? *streams_alone : *resolved_bare, wanted, {}, diagnostics_, made_.why_not, true);
+    instance_ = instance_of(streams_alone ? *streams_alone : *resolved_bare, wanted, {}, diagnostics_, made_.why_not, InstanceFor::change);
     if (diagnostics_.has_errors()) return false;
     if (!instance_) return true;
     for (std::size_t i = running_.streams.size(); i < both_.streams.size(); ++i)

@@ -34,10 +34,11 @@ struct JudgedStream {
 
 struct ScenarioSchedule {
   schedule::Decision::Verdict verdict = schedule::Decision::Verdict::undecided;
-  std::string how;                                     ///< "given paths", "searched paths", or what stood in the way
+  std::string how;                                     ///< "given paths", "searched paths"; what stood in the way, or the kind of the proof
   std::unique_ptr<scenario::Resolved> resolved;        ///< if scheduled; its `scenario` is the answer
   std::optional<schedule::Problem> instance;           ///< what the certificate is of, and the left-over streams
   std::optional<schedule::Certificate> certificate;
+  std::string proof;                                   ///< what the certificate says, in words
   std::vector<schedule::LeftOver> left_over;
   std::size_t most_entries = 0;
   std::optional<ClockMargin> clock_margin;             ///< if "auto" was asked for

@@ -14,7 +14,7 @@ namespace takt::synthesis {
 struct StreamRequirement {
   enum class State : std::uint8_t {
     kept,       ///< by every run that the bounds allow
-    broken,     ///< what is bounded is more than what is required; some run may be better
+    broken,     ///< in the run of the schedule, or what is bounded is more than what is required, and some run is better
     unbounded,  ///< nothing is known
   };
   std::size_t requirement = 0;             ///< in Resolved::requirements
@@ -23,6 +23,7 @@ struct StreamRequirement {
   State state = State::unbounded;
   std::optional<sim::Duration> bound;      ///< of a time
   std::optional<sim::Duration> limit;      ///< of a time
+  std::optional<sim::Duration> simulated = {};   ///< of a time: the greatest in the run of the schedule
   std::string reason;                      ///< why it is not kept
   /// By how much the bound exceeds the limit; of what is no time, nothing.
   sim::Duration excess() const { return bound && limit && *bound > *limit ? *bound - *limit : sim::Duration(); }

@@ -68,6 +68,8 @@ const std::vector<Layer>& layers() {
     list.push_back({"src/explain/", all_of({below, explain})});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
     list.push_back({"src/study/", all_of({below, questions, evaluation, explain, output, chart, interchange_schedules, study})});
+    // A proof is put into words in one place, for instances and for scenarios.
+    list.push_back({"src/synthesis/", all_of({below, questions, evaluation, explain, {"interchange/schedules/proof.hpp"}})});
     for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, evaluation, explain})});
     list.push_back({"src/evaluation/", all_of({below, evaluation})});
     list.push_back({"src/output/", all_of({below, questions, evaluation, explain, output})});

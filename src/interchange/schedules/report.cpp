@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "interchange/schedules/proof.hpp"
 #include "schedule/crossings.hpp"
 #include "schedule/gate_lists.hpp"
 
@@ -58,50 +59,6 @@ namespace {
 
 std::string in_us(Ps time) { return fmt::format("{:.6g} us", static_cast<double>(time) / 1e6); }
 
-std::string proof_of(const Problem& problem, const Certificate& certificate) {
-  using Kind = Certificate::Kind;
-  const Timing timing(problem, GateTiming::flowing);
-  const std::string crossing = certificate.in_time ? "must cross it to be in time" : "must cross it";
-  switch (certificate.kind) {
-    case Kind::latency: {
-      const Stream& stream = problem.streams[certificate.streams.front()];
-      const Crossings crossings(problem);
-      const Ps least = crossings.arrival(stream, certificate.listener, crossings.earliest_starts(stream));
-      if (least == never) return fmt::format("no way leads {} to {}", json::quote(stream.name), json::quote(problem.nodes[certificate.listener].name));
-      Ps limit = stream.latency.value_or(longest_time);
-      if (stream.deadline) limit = std::min(limit, *stream.deadline - stream.release);
-      return fmt::format("{} takes at least {} to {} and has {}", json::quote(stream.name), in_us(least), json::quote(problem.nodes[certificate.listener].name), in_us(limit));
-    }
-    case Kind::load: {
-      double sum = 0;
-      for (const StreamIndex s : certificate.streams) sum += static_cast<double>(timing.work(problem.streams[s], problem.links[certificate.links.front()])) / static_cast<double>(problem.streams[s].period);
-      std::string links;
-      for (const LinkIndex l : certificate.links) links += (links.empty() ? "" : ", ") + json::quote(problem.links[l].name);
-      if (certificate.links.size() > 1) return fmt::format("{} streams load {} by {:.2f} % together (each must cross one of them)", certificate.streams.size(), links, sum / static_cast<double>(certificate.links.size()) * 100);
-      return fmt::format("{} streams load {} by {:.2f} % ({})", certificate.streams.size(), links, sum * 100, crossing);
-    }
-    case Kind::interval:
-      return fmt::format("{} frames must be sent on {} from {} to {}, and take longer", certificate.jobs.size(), json::quote(problem.links[certificate.links.front()].name), in_us(certificate.from), in_us(certificate.until));
-    case Kind::pair:
-      return fmt::format("{} and {} meet on some link that both must cross, whatever their phases: neither may wait long enough for the other", json::quote(problem.streams[certificate.streams[0]].name),
-                         json::quote(problem.streams[certificate.streams[1]].name));
-    case Kind::clausal: {
-      std::string names;
-      constexpr std::size_t most = 8;
-      for (std::size_t i = 0; i < std::min(most, certificate.streams.size()); ++i) names += (i == 0 ? "" : ", ") + json::quote(problem.streams[certificate.streams[i]].name);
-      if (certificate.streams.size() > most) names += fmt::format(" and {} more", certificate.streams.size() - most);
-      return fmt::format("{} streams have no place beside each other, by {} clauses and {} steps: {}", certificate.streams.size(), certificate.clauses.axioms.size(), certificate.clauses.steps.size(), names);
-    }
-    case Kind::folded: {
-      double sum = 0;
-      for (const StreamIndex s : certificate.streams)
-        sum += static_cast<double>(timing.work(problem.streams[s], problem.links[certificate.links.front()])) / static_cast<double>(std::gcd(problem.streams[s].period, certificate.modulus));
-      return fmt::format("{} strictly periodic streams fill {:.2f} % of each {} on {} ({})", certificate.streams.size(), sum * 100, in_us(certificate.modulus), json::quote(problem.links[certificate.links.front()].name), crossing);
-    }
-  }
-  return {};
-}
-
 /// Of the longest of each stream's latencies, over the least on any way.
 double mean_normalised_latency(const Problem& problem, const Solution& solution) {
   const Crossings crossings(problem);
@@ -147,7 +104,6 @@ std::uint64_t count_waiting(const Problem& problem, const Solution& solution) {
 
 ScheduleReport report(const Problem& problem, const Decision& decision, const std::optional<std::string>& no_lists) {
   static constexpr const char* verdicts[] = {"scheduled", "infeasible", "undecided"};
-  static constexpr const char* kinds[] = {"latency", "load", "interval", "folded", "pair", "clausal"};
   constexpr std::size_t most_measured = 5'000;
   ScheduleReport report;
   report.instance = problem.name;
@@ -155,7 +111,7 @@ ScheduleReport report(const Problem& problem, const Decision& decision, const st
   report.streams = problem.streams.size();
   report.links = problem.links.size();
   report.verdict = verdicts[static_cast<std::size_t>(decision.verdict)];
-  report.how = decision.certificate ? kinds[static_cast<std::size_t>(decision.certificate->kind)] : std::string(decision.how);
+  report.how = decision.certificate ? kind_of(*decision.certificate) : std::string(decision.how);
   if (decision.certificate) report.proof = proof_of(problem, *decision.certificate);
   report.busiest_link = busiest(problem, decision.found.solution);
   if (decision.verdict == Decision::Verdict::scheduled) {

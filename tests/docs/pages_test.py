@@ -33,6 +33,9 @@ NOT_RUN = {
 if os.environ.get("TAKT_TIER") == "quick":
     reason = "takes minutes of a processor: it runs in the full tier"
     NOT_RUN["takt study scenarios/studies/schedulability.json"] = reason
+if os.environ.get("TAKT_TIER") == "quick":
+    NOT_RUN["takt study scenarios/studies/schedulability.json"] = "takes minutes of a processor: in the full tier"
+    NOT_RUN["takt study report draws.sqlite"] = "reports that study"
 # What makes the long ones short; the answer is asked elsewhere.
 SHORTER = {"run": ["--duration", "2ms"], "verify": ["--budget", "1", "--seeds", "1"], "compare": ["--pairs", "2"]}
 # An instance for the pages that speak of one: two machines at two of three switches in a ring.

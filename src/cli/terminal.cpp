@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <iterator>
 
+#include "json/printable.hpp"
+
 namespace takt::cli {
 namespace {
 
@@ -140,7 +142,8 @@ std::string folded(std::string_view page, std::size_t width) {
 void print(const std::string& page) {
   // JSON is for programs, wherever it goes.
   const bool is_json = page.starts_with('{') || page.starts_with('[');
-  const std::string fitting = is_json ? page : folded(page, page_width());
+  const std::string shown = json::printable_page(page);   // names of others are not written to act on a terminal
+  const std::string fitting = is_json ? shown : folded(shown, page_width());
   std::fputs((wants_colour(STDOUT_FILENO) ? with_colour(fitting) : fitting).c_str(), stdout);
 }
 

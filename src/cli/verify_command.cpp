@@ -12,6 +12,7 @@
 #include "cli/places.hpp"
 #include "cli/status_line.hpp"
 #include "cli/terminal.hpp"
+#include "json/printable.hpp"
 #include "output/result_folder.hpp"
 #include "report/verify_page.hpp"
 #include "verify/report.hpp"
@@ -57,7 +58,7 @@ std::string write_worst(output::WrittenFiles& folder, const verify::Verification
 
 /// A contradiction is worth sending in: both scenarios, beside the others or in a folder of their own. A problem, or empty.
 std::string write_witnesses(const std::string& folder, const scenario::Resolved& resolved, const verify::Contradiction& contradiction, verify::Witnesses& files) {
-  const std::filesystem::path path = folder.empty() ? std::filesystem::path(resolved.scenario.name + ".contradiction") : std::filesystem::path(folder);
+  const std::filesystem::path path = folder.empty() ? std::filesystem::path(json::file_name(resolved.scenario.name + ".contradiction")) : std::filesystem::path(folder);
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) return path.string() + ": " + error.message();

@@ -2,19 +2,10 @@
 
 #include <optional>
 
+#include "json/printable.hpp"
+
 namespace takt::json {
 namespace {
-
-/// Quoted where a separator, quote or line break stands inside.
-std::string cell(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
 
 std::string sum_of(const Node& object) {
   sim::int128 sum = 0;
@@ -32,7 +23,7 @@ std::string text_at(const Node* node, std::string_view pointer) {
   }
   if (node == nullptr || node->kind == Kind::null) return "";
   if (node->kind == Kind::boolean) return node->boolean ? "1" : "0";
-  return cell(node->text);
+  return csv_field(node->text);
 }
 
 void end_line(std::string& out) { out.back() = '\n'; }
@@ -45,7 +36,7 @@ std::string csv(std::span<const std::string_view> first, std::span<const Column>
   for (const Column& column : columns) out += std::string(column.name) + ',';
   end_line(out);
   for (const Row& row : rows) {
-    for (const std::string& text : row.first) out += cell(text) + ',';
+    for (const std::string& text : row.first) out += csv_field(text) + ',';
     for (const Column& column : columns) out += text_at(row.object, column.pointer) + ',';
     end_line(out);
   }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "json/printable.hpp"
+#include "json/prose.hpp"
 #include "json/suggest.hpp"
 #include "json/table.hpp"
 #include "sim/check.hpp"
@@ -11,6 +13,16 @@
 namespace takt::json {
 
 namespace {
+
+constexpr const char* control_in_a_name = "a control character in a name";
+constexpr const char* printable_name = "characters that are seen: names stand in scripts, tables and terminals";
+
+/// What is printed, or written into a script or table, must not act there.
+bool has_only_printable(const Node& node, Reader& reader) {
+  if (find_control(node.text) == std::string_view::npos) return true;
+  reader.error(node, control_in_a_name, {excerpt(node), printable_name, ""});
+  return false;
+}
 
 std::string joined(std::string_view what, const std::string& range) {
   return range.empty() ? std::string(what) : fmt::format("{} {}", what, range);
@@ -168,6 +180,17 @@ void decode_string(const Node& node, std::string& value, const Bounds& bounds, R
   if (node.text.size() > bounds.max_length)
     return reader.error(node, "a string that is too long",
                         {fmt::format("{} octets", node.text.size()), fmt::format("at most {}", bounds.max_length), ""});
+  if (!has_only_printable(node, reader)) return;
+  value = node.text;
+}
+
+void decode_prose(const Node& node, std::string& value, Reader& reader) {
+  if (node.kind != Kind::string) return reader.wrong_type(node, "a string");
+  for (std::string_view rest = node.text; !rest.empty();) {
+    const std::size_t end = std::min(rest.find_first_of("\n\t"), rest.size());
+    if (find_control(rest.substr(0, end)) != std::string_view::npos) return reader.error(node, "a control character", {excerpt(node), "a text of characters that are seen, line feeds and tabs", ""});
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
   value = node.text;
 }
 
@@ -243,6 +266,7 @@ void decode_mapping(const Node& node, void* value, const Mapping& mapping, const
   mapping.clear(value);
   for (const Member& member : node.members) {
     if (member.key.empty()) reader.error_at_key(member, "an empty name");
+    if (find_control(member.key) != std::string_view::npos) reader.error_at_key(member, control_in_a_name, {quote(member.key), printable_name, ""});
     mapping.value->decode(member.value, mapping.append(value, member.key), item_bounds, reader);
   }
 }

@@ -5,21 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "json/printable.hpp"
+
 namespace takt::json {
 
 namespace {
-
-/// Names that users choose, with control characters made harmless for a terminal.
-std::string visible(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      result += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-    else
-      result += c;
-  }
-  return result;
-}
 
 std::string_view name_of(Severity severity) { return severity == Severity::error ? "error" : "warning"; }
 
@@ -27,16 +17,16 @@ std::string_view name_of(Severity severity) { return severity == Severity::error
 
 std::string to_text(const Diagnostic& diagnostic) {
   const auto& [severity, place, message, details] = diagnostic;
-  std::string text = visible(place.file);
+  std::string text = place.file;
   if (place.line != 0) text += fmt::format(":{}:{}", place.line, place.column);
   text += text.empty() ? "" : ": ";
   text += name_of(severity);
-  if (!place.pointer.empty()) text += " at " + visible(place.pointer);
+  if (!place.pointer.empty()) text += " at " + place.pointer;
   text += ": " + message;
   if (!details.found.empty()) text += ": found " + details.found;
   if (!details.expected.empty()) text += (details.found.empty() ? ": expected " : ", expected ") + details.expected;
   if (!details.suggestion.empty()) text += " (did you mean " + quote(details.suggestion) + "?)";
-  return text;
+  return printable(text);   // names of files, and what they say
 }
 
 Node to_json(const Diagnostic& diagnostic) {
@@ -135,7 +125,7 @@ std::string others_text(const std::vector<const Diagnostic*>& others) {
     const Place& place = others[i]->place;
     if (i > 0) text += i + 1 == others.size() ? " and " : ", ";
     if (place.line != 0) text += fmt::format("{}:{}", place.line, place.column);
-    if (!place.pointer.empty()) text += place.line != 0 ? " (" + visible(place.pointer) + ")" : visible(place.pointer);
+    if (!place.pointer.empty()) text += place.line != 0 ? " (" + printable(place.pointer) + ")" : printable(place.pointer);
   }
   if (others.size() > most) text += fmt::format(" and {} more places", others.size() - most);
   return text + "\n";

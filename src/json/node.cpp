@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "json/printable.hpp"
 #include "json/utf8.hpp"
 #include "sim/check.hpp"
 
@@ -41,10 +42,7 @@ void append_escaped(std::string& out, std::string_view text) {
         out += "\\r";
         break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-          out += fmt::format("\\u{:04x}", static_cast<unsigned char>(c));
-        else
-          out += character;
+        out += printable(character);
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "output/csv_field.hpp"
+#include "json/printable.hpp"
 
 namespace takt::output {
 namespace {
@@ -27,7 +27,7 @@ void ClockSeries::sample(const scenario::ClockSample& sample) {
   if (sample.time < from_ || sample.time > to_) return;
   const std::vector<models::NodePlan>& nodes = network_->plan().nodes;
   const std::int64_t at = sample.time.ps();
-  file_.write(fmt::format("{}.{:012},{},{},{},{}\n", at / 1'000'000'000'000, at % 1'000'000'000'000, csv_field(nodes[sample.node.value].name), csv_field(nodes[sample.grandmaster.value].name),
+  file_.write(fmt::format("{}.{:012},{},{},{},{}\n", at / 1'000'000'000'000, at % 1'000'000'000'000, json::csv_field(nodes[sample.node.value].name), json::csv_field(nodes[sample.grandmaster.value].name),
                           in_ns(sample.offset), in_ns(sample.true_offset)));
 }
 

@@ -4,13 +4,13 @@
 
 #include <utility>
 
-#include "output/csv_field.hpp"
+#include "json/printable.hpp"
 
 namespace takt::output {
 
 FrameSeries::FrameSeries(const models::Network& network, std::string path) : FrameEvents(network), file_(std::move(path)) {
-  for (const models::Stream& stream : network.traffic().streams()) streams_.push_back(csv_field(stream.name));
-  for (const auto& node : network.plan().nodes) nodes_.push_back(csv_field(node.name));
+  for (const models::Stream& stream : network.traffic().streams()) streams_.push_back(json::csv_field(stream.name));
+  for (const auto& node : network.plan().nodes) nodes_.push_back(json::csv_field(node.name));
   file_.write("stream,sequence,event,node,port,produced_ps,at_ps,latency_ps,reason\n");
 }
 

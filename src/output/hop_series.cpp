@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "output/csv_field.hpp"
+#include "json/printable.hpp"
 
 namespace takt::output {
 namespace {
@@ -12,8 +12,8 @@ constexpr auto causes = static_cast<std::size_t>(explain::Cause::count);
 }
 
 HopSeries::HopSeries(const models::Network& network, const Selection& selection, std::string path) : selection_(&selection), file_(std::move(path)) {
-  for (const models::Stream& stream : network.traffic().streams()) streams_.push_back(csv_field(stream.name));
-  for (const models::NodePlan& node : network.plan().nodes) nodes_.push_back(csv_field(node.name));
+  for (const models::Stream& stream : network.traffic().streams()) streams_.push_back(json::csv_field(stream.name));
+  for (const models::NodePlan& node : network.plan().nodes) nodes_.push_back(json::csv_field(node.name));
   std::string head = "stream,sequence,node,port,to,class,produced_ps,came_ps,started_ps,octets,cuts";
   for (std::size_t cause = 0; cause < causes; ++cause) head += fmt::format(",{}_ps", explain::name_of(static_cast<explain::Cause>(cause)));
   file_.write(head + "\n");

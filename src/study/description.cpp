@@ -1,6 +1,8 @@
 // The vocabulary of study files: for each struct of description.hpp the table of its fields.
 #include "study/description.hpp"
 
+#include "json/prose.hpp"
+
 namespace takt::study {
 namespace {
 
@@ -253,7 +255,7 @@ const json::Object& describe(json::Type<Study>) {
   static constexpr json::Field fields[] = {
       optional<&Study::schema>("$schema", "The JSON Schema, for editors."),
       required<&Study::name>("name", "The name of the study.", {.min_length = 1, .max_length = 200}),
-      optional<&Study::description>("description", "What it asks."),
+      json::prose(optional<&Study::description>("description", "What it asks.")),
       optional<&Study::base>("base", "The scenario file that is varied, beside the study."),
       optional<&Study::scenario>("scenario", "The scenario that is varied, in place of a file."),
       optional<&Study::schedule>("schedule",

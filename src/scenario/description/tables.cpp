@@ -1,5 +1,6 @@
 // The vocabulary of scenario files: for each struct of description.hpp the table of its fields. Decoding, the resolved copy
 // and the JSON Schema are all made from these tables. Networks have a file of their own.
+#include "json/prose.hpp"
 #include "models/ethernet/sizes.hpp"
 #include "plant/limits.hpp"
 #include "scenario/description/description.hpp"
@@ -191,7 +192,7 @@ const json::Object& describe(json::Type<Scenario>) {
   static constexpr json::Field fields[] = {
       optional<&Scenario::schema>("$schema", "The JSON Schema, for editors."),
       required<&Scenario::name>("name", "The name of the scenario.", {.min_length = 1, .max_length = 200}),
-      optional<&Scenario::description>("description", "What it shows."),
+      json::prose(optional<&Scenario::description>("description", "What it shows.")),
       optional<&Scenario::seed>("seed", "The seed of all chance."),
       required<&Scenario::duration>("duration", "How long is simulated.", {.min = 1_ns, .max = longest}),
       optional<&Scenario::warm_up>("warm_up", "Requirements and figures count what begins at this instant or later; of a requirement with its own after, from that.", {.max = longest}),

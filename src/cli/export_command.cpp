@@ -1,8 +1,11 @@
 // takt export: a scenario in the words of devices and other tools.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <system_error>
 #include <vector>
@@ -11,8 +14,11 @@
 #include "cli/companion.hpp"
 #include "cli/load.hpp"
 #include "cli/places.hpp"
+#include "cli/terminal.hpp"
+#include "interchange/device_import.hpp"
 #include "interchange/format.hpp"
 #include "interchange/yang/validate.hpp"
+#include "json/printable.hpp"
 #include "output/result_folder.hpp"
 
 namespace takt::cli {
@@ -43,10 +49,21 @@ ExitStatus refuse_export(const std::string& text) {
   return ExitStatus::bad_input;
 }
 
+/// Whether a name is a path that leaves the folder it is in.
+bool leads_out(const std::string& name) {
+  const std::filesystem::path path(name);
+  return name.empty() || path.is_absolute() || std::ranges::find(path, std::filesystem::path("..")) != path.end();
+}
+
 ExitStatus write_files(const interchange::Exported& exported, const std::string& folder, bool is_json) {
   namespace fs = std::filesystem;
   std::vector<std::string> paths;
-  for (const interchange::OutputFile& file : exported.files) paths.push_back((fs::path(folder) / file.name).string());
+  for (const interchange::OutputFile& file : exported.files) {
+    if (leads_out(file.name)) return refuse_export(json::quote(file.name) + " is no name of a file in the folder of --out: give the scenario or node another name");
+    std::string path = (fs::path(folder) / json::file_name(file.name)).string();
+    if (std::ranges::find(paths, path) != paths.end()) return refuse_export("two files would be " + json::quote(path) + ": give the scenario or node another name");
+    paths.push_back(std::move(path));
+  }
   std::vector<Place> places;
   for (const std::string& path : paths) places.push_back({"--out", path, Place::Kind::file});
   if (!can_write(places, is_json)) return ExitStatus::bad_input;
@@ -82,7 +99,15 @@ ExitStatus run_export(const ExportOptions& options) {
       return refuse_export("--node: unknown node: found " + json::quote(options.node) + (suggestion.empty() ? "" : " (did you mean " + json::quote(suggestion) + "?)"));
     }
   }
-  const interchange::Exported exported = format.write({*resolved, node, *settings});
+  interchange::Names names;
+  if (const std::string beside = interchange::names_file_of(options.scenario.file); std::filesystem::is_regular_file(beside)) {
+    json::Diagnostics diagnostics;
+    std::ifstream stream(beside, std::ios::binary);
+    names.read({beside, "", std::string(std::istreambuf_iterator<char>(stream), {})}, diagnostics);
+    tell(diagnostics);
+    if (diagnostics.has_errors()) return ExitStatus::bad_input;
+  }
+  const interchange::Exported exported = format.write({*resolved, node, *settings, names.interfaces()});
   if (!exported.mistake.empty()) return refuse_export(exported.mistake);
   for (const interchange::Loss& loss : exported.losses) std::fprintf(stderr, "takt: %s cannot say: %s: %s\n", options.format.c_str(), loss.where.c_str(), loss.what.c_str());
   if (!exported.losses.empty() && !options.lossy) return refuse_export(fmt::format("nothing was written, since {} {} lost; --lossy writes the rest", exported.losses.size(), exported.losses.size() == 1 ? "thing would be" : "things would be"));
@@ -101,7 +126,7 @@ ExitStatus run_export(const ExportOptions& options) {
     return ExitStatus::pass;
   }
   for (const interchange::OutputFile& file : exported.files) {
-    std::printf("==> %s <==\n", file.name.c_str());
+    std::printf("==> %s <==\n", json::file_name(file.name).c_str());
     std::fwrite(file.content.data(), 1, file.content.size(), stdout);
     std::printf("\n");
   }

@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/companion.hpp"
 #include "cli/places.hpp"
+#include "interchange/device_import.hpp"
 #include "interchange/format.hpp"
 #include "json/fields.hpp"
 #include "output/result_folder.hpp"
@@ -46,28 +47,48 @@ interchange::InputFile read_input(const std::string& argument, json::Diagnostics
     file.device = argument.substr(0, equals);
     file.name = argument.substr(equals + 1);
   } else {
-    const std::string base = std::filesystem::path(argument).filename().string();
-    file.device = base.substr(0, base.find('.'));
+    file.device = interchange::device_of_file(std::filesystem::path(argument).filename().string());
   }
   std::ifstream stream(file.name, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file.name, ignored)) {
     diagnostics.error({file.name, 0, 0, ""}, "cannot be read", {stream ? "a folder" : std::strerror(errno), "a file"});
     return file;
   }
-  file.text.resize(interchange::max_input_octets + 1);
-  stream.read(file.text.data(), static_cast<std::streamsize>(file.text.size()));
-  file.text.resize(static_cast<std::size_t>(stream.gcount()));
+  // A file costs what it is long: piece by piece, since pipes do not say their length.
+  std::string piece(std::size_t{64} << 10, '\0');
+  while (stream && file.text.size() <= interchange::max_input_octets) {
+    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    file.text.append(piece, 0, static_cast<std::size_t>(stream.gcount()));
+  }
+  file.text.shrink_to_fit();
   if (file.text.size() > interchange::max_input_octets) diagnostics.error({file.name, 0, 0, ""}, "too large", {"more than 64 MiB", "at most 64 MiB"});
   return file;
 }
 
+/// The mistakes at the lines of the files that said what is wrong, as far as these are known.
+json::Diagnostics placed_in_files(const json::Diagnostics& diagnostics, const interchange::Imported& imported) {
+  json::Diagnostics placed;
+  for (const json::Diagnostic& each : diagnostics.sorted()) {
+    if (each.severity != json::Severity::error) continue;
+    json::Place place = each.place;
+    for (std::string pointer = place.pointer; !pointer.empty(); pointer.resize(pointer.rfind('/')))
+      if (const auto origin = imported.origins.find(pointer); origin != imported.origins.end()) {
+        place = origin->second;
+        break;
+      }
+    placed.error(std::move(place), each.message, each.details);
+  }
+  return placed;
+}
+
 /// What was made is a scenario like any other: what it says must go together.
-bool is_sound_scenario(const std::string& text, const std::string& name, std::size_t files) {
+bool is_sound_scenario(const std::string& text, const std::string& name, const interchange::Imported& imported, std::size_t files) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, name, {}, diagnostics);
   if (resolved) return true;
-  std::fputs(diagnostics.to_text().c_str(), stderr);
-  std::fprintf(stderr, "takt: what the %s is no sound scenario (above, by the places where it would stand)\n", files == 1 ? "file says" : "files say");
+  json::Diagnostics placed = placed_in_files(diagnostics, imported);
+  std::fputs(placed.to_text().c_str(), stderr);
+  std::fprintf(stderr, "takt: what the %s is no sound scenario (above, by the lines of the files, or where it would stand)\n", files == 1 ? "file says" : "files say");
   return false;
 }
 
@@ -96,12 +117,14 @@ ExitStatus run_import(const ImportOptions& options) {
   if (diagnostics.has_errors() || !imported.scenario) return ExitStatus::bad_input;
   for (const interchange::Remark& remark : imported.remarks) std::fprintf(stderr, "%s\n", interchange::to_text(remark).c_str());
   const std::string text = interchange::sparse_text(*imported.scenario);
-  if (!is_sound_scenario(text, options.out.empty() ? "scenario.json" : options.out, files.size())) return ExitStatus::bad_input;
+  if (!is_sound_scenario(text, options.out.empty() ? "scenario.json" : options.out, imported, files.size())) return ExitStatus::bad_input;
   if (options.out.empty()) {
+    if (!imported.interfaces.empty()) std::fprintf(stderr, "takt: the names of interfaces are not kept on standard output; --out FILE.json writes them into FILE.names.json\n");
     std::fputs(text.c_str(), stdout);
     return ExitStatus::pass;
   }
-  const std::string problem = output::write_file(options.out, text);
+  std::string problem = output::write_file(options.out, text);
+  if (problem.empty() && !imported.interfaces.empty()) problem = output::write_file(interchange::names_file_of(options.out), interchange::interfaces_table(imported.interfaces));
   if (problem.empty()) return ExitStatus::pass;
   std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
   return ExitStatus::internal_error;

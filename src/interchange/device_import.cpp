@@ -5,6 +5,7 @@
 #include "interchange/ports.hpp"
 #include "scenario/resolve/resolved.hpp"
 #include "json/document.hpp"
+#include "json/printable.hpp"
 #include "scenario/topology/topology.hpp"
 
 namespace takt::interchange {
@@ -28,7 +29,7 @@ const Egress* entry_for(const scenario::NodePorts& ports, const std::string& pee
 
 class DeviceBuilder {
  public:
-  DeviceBuilder(scenario::Scenario& scenario, json::Diagnostics& diagnostics) : scenario_(scenario), diagnostics_(diagnostics) {}
+  DeviceBuilder(scenario::Scenario& scenario, const Names& names, Imported& imported, json::Diagnostics& diagnostics) : scenario_(scenario), names_(names), imported_(imported), diagnostics_(diagnostics) {}
 
   /// A network of its own: a host at each port.
   void add_to_nothing(const ImportedDevice& device) {
@@ -45,6 +46,7 @@ class DeviceBuilder {
       scenario_.network.links.push_back(link);
       peers.emplace_back(&port, std::move(peer));
     }
+    keep_interfaces(device, peers, [&](std::size_t i) { return interface_name(device.forwards, static_cast<std::uint16_t>(i)); });
     set_ports(scenario_.network.nodes[own].second, device, peers);
     set_rest(scenario_.network.nodes[own].second, device, peers);
   }
@@ -57,17 +59,21 @@ class DeviceBuilder {
       return;
     }
     std::vector<std::pair<const ImportedPort*, std::string>> peers;
+    std::vector<std::uint16_t> numbers;
     for (const ImportedPort& port : device.ports) {
       const auto number = port_of_interface(port.interface);
       const auto& neighbours = topology.neighbours[*index];
-      const auto neighbour = std::ranges::find_if(neighbours, [&](const scenario::Neighbour& each) { return number && each.port == *number; });
+      const auto named = peer_of(device.name, port.interface);
+      const auto neighbour = std::ranges::find_if(neighbours, [&](const scenario::Neighbour& each) { return named ? topology.nodes[each.node].name == *named : number && each.port == *number; });
       if (neighbour == neighbours.end()) {
         if (says_nothing(port.egress)) continue;
-        diagnostics_.error(port.place, "an interface at which the network has no link", {json::quote(port.interface) + " of " + json::quote(device.name), "a name that ends with the number of a port: " + ports_text(neighbours)});
+        diagnostics_.error(port.place, "an interface at which the network has no link", {json::quote(port.interface) + " of " + json::quote(device.name), "a name that ends with the number of a port (" + ports_text(neighbours) + "), or a table of names (" + std::string(names_file) + ") that has it under \"interfaces\""});
         continue;
       }
       peers.emplace_back(&port, topology.nodes[neighbour->node].name);
+      numbers.push_back(neighbour->port);
     }
+    keep_interfaces(device, peers, [&](std::size_t i) { return interface_name(device.forwards || scenario::relay_of(found->second) != nullptr, numbers[i]); });
     expand(topology, *index, found->second);
     set_ports(found->second, device, peers);
     set_rest(found->second, device, peers);
@@ -85,7 +91,7 @@ class DeviceBuilder {
       scenario_.clocks.model = scenario::ClockModel::free_running;
     }
     if (device.gptp && scenario_.clocks.gptp) {
-      set_node(entry_of(scenario_.clocks.gptp->nodes, device.name, scenario::GptpNode{}), *device.gptp, device.gptp_by_data_sets, peers);
+      set_node(entry_of(scenario_.clocks.gptp->nodes, device.name, scenario::GptpNode{}), *device.gptp, device.gptp_by_data_sets || device.gptp_by_roles, peers);
       for (const scenario::GptpDomain& domain : device.gptp_domains) {
         auto found = std::ranges::find(scenario_.clocks.gptp->domains, domain.domain, &scenario::GptpDomain::domain);
         if (found == scenario_.clocks.gptp->domains.end()) {
@@ -107,6 +113,26 @@ class DeviceBuilder {
   }
 
  private:
+  /// The neighbour at an interface, by the table of names.
+  std::optional<std::string> peer_of(const std::string& node, const std::string& interface) const {
+    const auto found = names_.interfaces().find(node);
+    if (found == names_.interfaces().end()) return std::nullopt;
+    const auto named = std::ranges::find(found->second, interface, [](const auto& each) -> const std::string& { return each.first; });
+    return named == found->second.end() ? std::nullopt : std::optional(named->second);
+  }
+
+  /// Names that an export would not give by itself.
+  template <class Usual>
+  void keep_interfaces(const ImportedDevice& device, const std::vector<std::pair<const ImportedPort*, std::string>>& peers, Usual usual) {
+    std::vector<std::pair<std::string, std::string>> names;
+    bool differs = false;
+    for (std::size_t i = 0; i < peers.size(); ++i) {
+      names.emplace_back(peers[i].first->interface, peers[i].second);
+      differs = differs || peers[i].first->interface != usual(i);
+    }
+    if (differs) imported_.interfaces[device.name] = std::move(names);
+  }
+
   static std::string ports_text(const std::vector<scenario::Neighbour>& neighbours) {
     std::string text;
     for (const scenario::Neighbour& each : neighbours) text += (text.empty() ? "" : ", ") + std::to_string(each.port);
@@ -210,6 +236,8 @@ class DeviceBuilder {
   }
 
   scenario::Scenario& scenario_;
+  const Names& names_;
+  Imported& imported_;
   json::Diagnostics& diagnostics_;
   bool seen_gptp_ = false;
 };
@@ -221,6 +249,7 @@ void Names::read(const InputFile& file, json::Diagnostics& diagnostics) {
   if (!document) return;
   const auto read = [&](std::string_view key, std::map<std::string, std::string>& into) {
     const json::Node* const table = document->root().find(key);
+    if (table == nullptr && document->root().find("interfaces") != nullptr) return;
     if (table == nullptr || table->kind != json::Kind::object) {
       diagnostics.error(json::place_of(*document->tree(), document->root()), "not a table of names", {"no object " + json::quote(key), "what takt export writes as " + std::string(names_file)});
       return;
@@ -232,6 +261,18 @@ void Names::read(const InputFile& file, json::Diagnostics& diagnostics) {
   };
   read("streams", streams_);
   read("nodes", nodes_);
+  const json::Node* const interfaces = document->root().find("interfaces");
+  if (interfaces == nullptr) return;
+  const auto refuse = [&](const json::Node& node, const char* expected) { diagnostics.error(json::place_of(*document->tree(), node), "not a table of interfaces", {json::excerpt(node), expected}); };
+  if (interfaces->kind != json::Kind::object) return refuse(*interfaces, "an object with a member for each node");
+  for (const json::Member& node : interfaces->members) {
+    if (node.value.kind != json::Kind::object) { refuse(node.value, "an object with the neighbour at each interface"); continue; }
+    for (const json::Member& each : node.value.members) {
+      const bool is_name = !each.key.empty() && json::shell_word(each.key) == each.key && each.key.find('/') == std::string::npos;
+      if (each.value.kind != json::Kind::string || !is_name) refuse(each.value, "the name of a neighbour, under an interface of letters, digits and _-.:@+,=");
+      else interfaces_[node.key].emplace_back(each.key, each.value.text);
+    }
+  }
 }
 
 std::optional<std::string> Names::stream(const std::string& address) const {
@@ -243,7 +284,21 @@ std::optional<std::string> Names::node(const std::string& address) const {
   return found == nodes_.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::string names_table(const scenario::Resolved& resolved) {
+namespace {
+
+json::Node interfaces_node(const InterfaceNames& interfaces) {
+  json::Node all = json::Node::object();
+  for (const auto& [node, names] : interfaces) {
+    json::Node of_node = json::Node::object();
+    for (const auto& [interface, peer] : names) of_node.add(interface, json::Node::of_string(peer));
+    all.add(node, std::move(of_node));
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string names_table(const scenario::Resolved& resolved, const InterfaceNames& interfaces) {
   json::Node streams = json::Node::object(), nodes = json::Node::object();
   for (std::uint32_t n = 0; n < resolved.plan.nodes.size(); ++n) nodes.add(mac_text(mac_of(resolved, {n}), ':'), json::Node::of_string(resolved.plan.nodes[n].name));
   for (const models::StreamPlan& stream : resolved.plan.streams) {
@@ -254,8 +309,17 @@ std::string names_table(const scenario::Resolved& resolved) {
   table.add("scenario", json::Node::of_string(resolved.scenario.name));
   table.add("nodes", std::move(nodes));
   table.add("streams", std::move(streams));
+  if (!interfaces.empty()) table.add("interfaces", interfaces_node(interfaces));
   return json::pretty(table);
 }
+
+std::string interfaces_table(const InterfaceNames& interfaces) {
+  json::Node table = json::Node::object();
+  table.add("interfaces", interfaces_node(interfaces));
+  return json::pretty(table);
+}
+
+std::string names_file_of(const std::string& scenario_file) { return (scenario_file.ends_with(".json") ? scenario_file.substr(0, scenario_file.size() - 5) : scenario_file) + ".names.json"; }
 
 bool is_names_file(const InputFile& file) { return file.name.ends_with(".names.json"); }
 
@@ -293,7 +357,7 @@ scenario::NetworkSection written_out(const scenario::Topology& topology) {
   return network;
 }
 
-void build_scenario(std::vector<ImportedDevice> devices, const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics) {
+void build_scenario(std::vector<ImportedDevice> devices, const ImportRequest& request, const Names& names, Imported& imported, json::Diagnostics& diagnostics) {
   scenario::Scenario scenario;
   if (request.base != nullptr) {
     scenario = *request.base;
@@ -301,7 +365,7 @@ void build_scenario(std::vector<ImportedDevice> devices, const ImportRequest& re
     scenario.name = devices.size() == 1 ? devices.front().name : "imported";
     scenario.duration = sim::Duration::from_ps(100'000'000'000);
   }
-  DeviceBuilder builder(scenario, diagnostics);
+  DeviceBuilder builder(scenario, names, imported, diagnostics);
   std::optional<scenario::Topology> topology;
   if (request.base != nullptr) {
     topology = scenario::build_topology(request.base->network, diagnostics);

@@ -31,6 +31,7 @@ struct ImportedDevice {
   std::vector<ImportedPort> ports;
   std::optional<scenario::Ingress> ingress = {};
   std::optional<scenario::GptpNode> gptp = {};
+  bool gptp_by_roles = false;                             ///< "roles" are said (of interfaces, not neighbours)
   bool gptp_by_data_sets = false;                         ///< those of IEEE 802.1AS: "roles" are said (of interfaces, not neighbours), servos are not
   std::vector<scenario::GptpDomain> gptp_domains = {};    ///< further domains, each with this device alone
   std::optional<scenario::Gptp> gptp_of_all = {};         ///< intervals and the like, which takt has once for all nodes
@@ -44,13 +45,19 @@ class Names {
   void read(const InputFile& file, json::Diagnostics& diagnostics);
   std::optional<std::string> stream(const std::string& address) const;
   std::optional<std::string> node(const std::string& address) const;
+  const InterfaceNames& interfaces() const { return interfaces_; }
 
  private:
   std::map<std::string, std::string> streams_, nodes_;
+  InterfaceNames interfaces_;
 };
 
-/// The table of a scenario.
-std::string names_table(const scenario::Resolved& resolved);
+/// The table of a scenario; `interfaces` are those that are called otherwise than by their numbers.
+std::string names_table(const scenario::Resolved& resolved, const InterfaceNames& interfaces = {});
+/// The table beside a scenario that an import made: that of interfaces alone.
+std::string interfaces_table(const InterfaceNames& interfaces);
+/// "plant.json": "plant.names.json".
+std::string names_file_of(const std::string& scenario_file);
 inline constexpr std::string_view names_file = "takt.names.json";
 bool is_names_file(const InputFile& file);
 
@@ -61,6 +68,6 @@ scenario::IdentifiedStream identity_of(const std::string& name, const std::strin
 scenario::NetworkSection written_out(const scenario::Topology& topology);
 
 /// Puts the devices into the base of the request, or makes a network of them. Nothing if there are mistakes.
-void build_scenario(std::vector<ImportedDevice> devices, const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics);
+void build_scenario(std::vector<ImportedDevice> devices, const ImportRequest& request, const Names& names, Imported& imported, json::Diagnostics& diagnostics);
 
 }  // namespace takt::interchange

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "interchange/interfaces.hpp"
 #include "interchange/settings.hpp"
 #include "scenario/resolve/resolved.hpp"
 
@@ -28,6 +29,7 @@ struct ExportRequest {
   const scenario::Resolved& resolved;
   std::optional<std::uint32_t> node = {};   ///< only for this node
   Settings settings = {};
+  InterfaceNames interfaces = {};           ///< as the table beside the scenario has them
   bool concerns(std::uint32_t which) const { return !node || *node == which; }
 };
 

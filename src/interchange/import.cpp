@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "json/fields.hpp"
+#include "json/printable.hpp"
 
 namespace takt::interchange {
 namespace {
@@ -93,13 +94,28 @@ void simplify(Node& node, std::string_view key) {
 
 }  // namespace
 
+std::string device_of_file(std::string_view name) {
+  std::size_t at = 0, groups = 0;
+  while (groups < 4) {
+    std::size_t end = at;
+    while (end < name.size() && name[end] >= '0' && name[end] <= '9') ++end;
+    if (end == at || end - at > 3) break;
+    ++groups;
+    at = end;
+    if (groups == 4 || at == name.size() || name[at] != '.') break;
+    ++at;
+  }
+  const bool is_address = groups == 4 && (at == name.size() || name[at] == '.');
+  return std::string(name.substr(0, is_address ? at : name.find('.')));
+}
+
 void Imported::remark(RemarkKind kind, json::Place place, std::string text) { remarks.push_back({kind, std::move(place), std::move(text)}); }
 
 std::string to_text(const Remark& remark) {
   constexpr std::string_view words[] = {"changed", "lost", "ignored", "odd"};
   std::string text = remark.place.file;
   if (remark.place.line != 0) text += ":" + std::to_string(remark.place.line) + ":" + std::to_string(remark.place.column);
-  return text + ": " + std::string(words[static_cast<std::size_t>(remark.kind)]) + ": " + remark.text;
+  return json::printable(text + ": " + std::string(words[static_cast<std::size_t>(remark.kind)]) + ": " + remark.text);
 }
 
 std::string sparse_text(const scenario::Scenario& scenario) {

@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include <map>
+
+#include "interchange/interfaces.hpp"
 #include "interchange/settings.hpp"
 #include "json/diagnostics.hpp"
 #include "scenario/description/description.hpp"
@@ -18,9 +21,12 @@ inline constexpr std::size_t max_input_octets = std::size_t{64} << 20;
 
 struct InputFile {
   std::string name;      ///< for diagnostics
-  std::string device;    ///< the node that it is of: what the user says, or the file's name up to its first dot
+  std::string device;    ///< the node that it is of: what the user says, or device_of_file()
   std::string text;
 };
+
+/// The device that a file is called after: its name up to the first dot, or an IP address with its dots ("192.168.0.1.qdisc.json").
+std::string device_of_file(std::string_view name);
 
 enum class RemarkKind : std::uint8_t {
   changed,   ///< said in another way, which means the same from some time on
@@ -44,6 +50,8 @@ struct ImportRequest {
 struct Imported {
   std::optional<scenario::Scenario> scenario;
   std::vector<Remark> remarks;
+  InterfaceNames interfaces;     ///< as the devices call them, where an export would call one of a node otherwise
+  std::map<std::string, json::Place> origins;   ///< where in the files what stands at a pointer of the scenario was said
   void remark(RemarkKind kind, json::Place place, std::string text);
 };
 

@@ -11,7 +11,24 @@
 
 namespace takt::interchange {
 
-std::vector<Device> devices_of(const scenario::Resolved& resolved) {
+namespace {
+
+/// Parallel links to one neighbour have their names in the order of the ports.
+void rename_ports(Device& device, const InterfaceNames& interfaces) {
+  const auto found = interfaces.find(device.name);
+  if (found == interfaces.end()) return;
+  std::vector<std::pair<std::string, std::string>> left = found->second;
+  for (DevicePort& port : device.ports) {
+    const auto name = std::ranges::find(left, port.peer_name, [](const auto& each) -> const std::string& { return each.second; });
+    if (name == left.end()) continue;
+    port.interface = name->first;
+    left.erase(name);
+  }
+}
+
+}  // namespace
+
+std::vector<Device> devices_of(const scenario::Resolved& resolved, const InterfaceNames& interfaces) {
   std::vector<Device> devices;
   for (std::uint32_t n = 0; n < resolved.plan.nodes.size(); ++n) {
     const models::NodePlan& node = resolved.plan.nodes[n];
@@ -26,7 +43,10 @@ std::vector<Device> devices_of(const scenario::Resolved& resolved) {
                               &scenario::port_config_of(resolved.plan, *end)});
     }
   }
-  for (Device& device : devices) std::ranges::sort(device.ports, {}, &DevicePort::port);
+  for (Device& device : devices) {
+    std::ranges::sort(device.ports, {}, &DevicePort::port);
+    rename_ports(device, interfaces);
+  }
   return devices;
 }
 

@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "interchange/interfaces.hpp"
 #include "scenario/resolve/resolved.hpp"
 
 namespace takt::interchange {
 
 struct DevicePort {
   std::uint16_t port = 0;
-  std::string interface;             ///< see interface_name
+  std::string interface;             ///< what the table of names says, else see interface_name
   std::uint32_t peer = 0;            ///< node
   std::string peer_name;
   sim::DataRate rate;
@@ -28,7 +29,7 @@ struct Device {
 };
 
 /// All nodes, in the order of the scenario.
-std::vector<Device> devices_of(const scenario::Resolved& resolved);
+std::vector<Device> devices_of(const scenario::Resolved& resolved, const InterfaceNames& interfaces = {});
 
 /// "eth0" of hosts, "swp0" of what forwards, with takt's number of the port.
 std::string interface_name(bool forwards, std::uint16_t port);

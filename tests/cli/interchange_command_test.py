@@ -132,6 +132,63 @@ class Interchange(unittest.TestCase):
         self.assertEqual(status, 2)
         self.assertIn("no Programs", error)
 
+    def test_names_neither_act_nor_lead_out(self):
+        findings = SOURCE / "tests" / "findings" / "export"
+        inside = self.out / "a" / "b"
+        status, page, error = takt("export", "svg", findings / "name-leads-out.json", "--out", inside)
+        self.assertEqual((status, page), (2, ""), error)
+        self.assertEqual(list(self.out.rglob("*.svg")), [])
+        for name in ("stream-is-a-command", "stream-is-a-command-lossy", "name-hides-the-verdict"):
+            for command in (("export", "linux", findings / f"{name}.json", "--lossy"), ("run", findings / f"{name}.json"), ("check", findings / f"{name}.json")):
+                status, page, error = takt(*command)
+                self.assertEqual((status, page), (2, ""), name)
+                self.assertIn("a control character in a name", error)
+                self.assertNotIn("\x1b", error)
+
+    def test_entries_of_bridges_are_written_once(self):
+        """Two streams to one host: one entry, that can be set again."""
+        status, _, error = takt("export", "linux", SOURCE / "tests" / "findings" / "export" / "two-streams-to-one-host.json", "--out", self.out)
+        self.assertEqual(status, 0, error)
+        lines = (self.out / "sw.sh").read_text().splitlines()
+        entries = [line for line in lines if line.startswith("bridge fdb")]
+        self.assertEqual(len(entries), len(set(entries)))
+        self.assertTrue(entries and all(line.startswith("bridge fdb replace") for line in entries), entries)
+        self.assertIn("ip link set dev br0 up", lines)
+
+    def test_more_entries_than_tc_sends_are_a_loss(self):
+        status, page, error = takt("export", "linux", SOURCE / "tests" / "findings" / "export" / "forty-entries.json", "--out", self.out / "scripts")
+        self.assertEqual((status, page), (2, ""), error)
+        self.assertIn("40 entries of a gate list of which tc sends at most 30", error)
+        self.assertFalse((self.out / "scripts").exists())
+
+    def test_names_of_interfaces_are_kept_beside_the_scenario(self):
+        script = SOURCE / "tests" / "findings" / "import" / "swp5-and-swp2.sh"
+        status, _, error = takt("import", "linux", f"sw={script}", "--out", self.out / "plant.json")
+        self.assertEqual(status, 0, error)
+        self.assertIn("swp5", json.loads((self.out / "plant.names.json").read_text())["interfaces"]["sw"])
+        status, _, error = takt("export", "linux", self.out / "plant.json", "--node", "sw", "--out", self.out / "scripts")
+        self.assertEqual(status, 0, error)
+        status, _, error = takt("import", "linux", self.out / "scripts" / "sw.sh", self.out / "plant.names.json", "--into", self.out / "plant.json", "--out", self.out / "again.json")
+        self.assertEqual(status, 0, error)
+        self.assertEqual(digest(self.out / "plant.json"), digest(self.out / "again.json"))
+
+    def test_mistakes_of_tables_are_told_at_their_lines(self):
+        (self.out / "cables.csv").write_text("from,to\nplc,sw\ndrive,sw\n")
+        (self.out / "streams.csv").write_text("name;from;to;payload;every\nset;plc;drive;64;1 ms\nact;drive;pls;64;1 ms\n")
+        status, page, error = takt("import", "csv", self.out / "cables.csv", self.out / "streams.csv")
+        self.assertEqual((status, page), (2, ""))
+        self.assertIn("streams.csv:3:", error)
+        self.assertNotIn("scenario.json", error)
+
+    def test_many_files_cost_what_they_are_long(self):
+        import resource
+        for i in range(400):
+            (self.out / f"n{i}.sh").write_text("ip link set dev eth0 up\n")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        status, _, error = takt("import", "linux", *sorted(self.out.glob("*.sh")), "--out", self.out / "all.json")
+        self.assertEqual(status, 0, error)
+        self.assertLess(max(before, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss), 400_000)   # kB; 64 MiB for each were 26 GB
+
     def test_settings_are_those_of_the_format(self):
         for arguments in (("-o", "gates=nowhere"), ("-o", "speed=1"), ("-o", "start=-1")):
             status, _, error = takt("export", "linux", SCENARIOS / "robot-arm.json", *arguments)

@@ -48,7 +48,7 @@ inline std::vector<std::map<std::string, std::string>> rows_of(const std::filesy
 
 inline InputFile input(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  return {name, name.substr(0, name.find('.')), text_of(path)};
+  return {name, device_of_file(name), text_of(path)};
 }
 
 struct Reading {
@@ -84,7 +84,7 @@ inline scenario::Node node_of(const std::filesystem::path& path) {
 /// What was written, to be read again.
 inline std::vector<InputFile> inputs(const Exported& exported) {
   std::vector<InputFile> files;
-  for (const OutputFile& file : exported.files) files.push_back({file.name, file.name.substr(0, file.name.find('.')), file.content});
+  for (const OutputFile& file : exported.files) files.push_back({file.name, device_of_file(file.name), file.content});
   return files;
 }
 

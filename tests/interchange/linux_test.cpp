@@ -56,12 +56,6 @@ TEST(LinuxSets, AllMistakesAreToldAtOnceWithTheirPlaces) {
   EXPECT_EQ(places, (std::vector<std::pair<std::uint32_t, std::uint32_t>>{{1, 72}, {1, 85}, {1, 99}, {2, 17}, {3, 40}})) << reading.diagnostics.to_text();
 }
 
-TEST(LinuxSets, WhatOnlyAShellKnowsIsRefused) {
-  const Reading reading = read("linux", {{"a.sh", "a", "tc qdisc add dev $DEV clsact\n"}});
-  ASSERT_TRUE(reading.diagnostics.has_errors());
-  EXPECT_EQ(reading.diagnostics.kept().front().place.column, 18u);
-}
-
 TEST(LinuxDumps, MeanWhatTheCommandsMean) {
   const std::string dump = R"([{"kind":"taprio","handle":"100:","dev":"eth0","root":true,"refcnt":9,"options":{"tc":8,"map":[0,1,2,3,4,5,6,7,7,7,7,7,7,7,7,7],
     "queues":[{"offset":0,"count":1},{"offset":1,"count":1},{"offset":2,"count":1},{"offset":3,"count":1},{"offset":4,"count":1},{"offset":5,"count":1},{"offset":6,"count":1},{"offset":7,"count":1}],

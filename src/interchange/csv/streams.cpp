@@ -4,73 +4,27 @@
 #include <charconv>
 #include <set>
 
+#include "interchange/csv/records.hpp"
 #include "json/quantity.hpp"
 #include "json/suggest.hpp"
 
 namespace takt::interchange {
 namespace {
 
-struct Cell {
-  std::string text;
-  json::Place place;
-};
-using Row = std::vector<Cell>;
-
-/// RFC 4180 with a comma between; blank lines and lines that begin with # are passed over.
-std::vector<Row> rows_of(const InputFile& file, json::Diagnostics& diagnostics) {
-  std::vector<Row> rows;
-  const std::string_view text = file.text;
-  std::uint32_t line = 1, column = 1;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    if (text[at] == '\n' || text[at] == '#' || text[at] == '\r') {   // an empty line or a comment
-      while (at < text.size() && text[at] != '\n') ++at;
-      ++at;
-      ++line;
-      continue;
-    }
-    Row row;
-    column = 1;
-    for (bool goes_on = true; goes_on;) {
-      Cell cell{"", {file.name, line, column, ""}};
-      if (at < text.size() && text[at] == '"') {
-        ++at;
-        ++column;
-        while (at < text.size() && !(text[at] == '"' && (at + 1 >= text.size() || text[at + 1] != '"'))) {
-          if (text[at] == '"') ++at;   // two stand for one
-          if (text[at] == '\n') { ++line; column = 0; }
-          cell.text += text[at++];
-          ++column;
-        }
-        if (at >= text.size()) diagnostics.error(cell.place, "a cell that does not end", {"no closing quote", "a quote at its end"});
-        else { ++at; ++column; }
-      }
-      while (at < text.size() && text[at] != ',' && text[at] != '\n') {
-        if (text[at] != '\r') cell.text += text[at];
-        ++at;
-        ++column;
-      }
-      goes_on = at < text.size() && text[at] == ',';
-      if (at < text.size()) ++at;
-      ++column;
-      row.push_back(std::move(cell));
-    }
-    ++line;
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
+using csv::Cell;
+using csv::Row;
 
 class StreamsReader {
  public:
-  StreamsReader(json::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  StreamsReader(Imported& imported, json::Diagnostics& diagnostics) : imported_(imported), diagnostics_(diagnostics) {}
 
-  void read(const InputFile& file, std::vector<scenario::Stream>& streams) {
-    const std::vector<Row> rows = rows_of(file, diagnostics_);
-    if (rows.empty()) return diagnostics_.error({file.name, 1, 1, ""}, "no header", {"an empty file", "name,from,to,payload,every,..."});
-    read_header(rows.front());
-    if (diagnostics_.has_errors()) return;
-    for (std::size_t i = 1; i < rows.size(); ++i) read_row(rows[i], streams);
+  void read(const csv::Table& table, std::vector<scenario::Stream>& streams) {
+    order_.clear();
+    separator_ = table.separator;
+    const std::size_t errors = diagnostics_.errors();
+    read_header(table.header);
+    if (diagnostics_.errors() != errors) return;
+    for (const Row& row : table.rows) read_row(row, streams);
   }
 
  private:
@@ -85,14 +39,7 @@ class StreamsReader {
     static const std::vector<Column> all = {
         {"name", true, [](StreamsReader&, const Cell& cell, Stream& s) { s.name = cell.text; }},
         {"from", true, [](StreamsReader&, const Cell& cell, Stream& s) { s.from = cell.text; }},
-        {"to", true, [](StreamsReader&, const Cell& cell, Stream& s) {
-           std::string_view rest = cell.text;   // several with semicolons between
-           while (!rest.empty()) {
-             const std::size_t end = rest.find(';');
-             s.to.names.emplace_back(rest.substr(0, end));
-             rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-           }
-         }},
+        {"to", true, [](StreamsReader& r, const Cell& cell, Stream& s) { s.to.names = csv::names_in(cell, r.separator_); }},
         {"payload", true, [](StreamsReader& r, const Cell& cell, Stream& s) { s.payload = sim::Octets{static_cast<std::uint32_t>(r.number(cell, 1, 1500, "octets from 1 to 1500"))}; }},
         {"every", true, [](StreamsReader& r, const Cell& cell, Stream& s) { s.every = r.duration(cell); }},
         {"offset", false, [](StreamsReader& r, const Cell& cell, Stream& s) {
@@ -115,7 +62,8 @@ class StreamsReader {
 
   std::uint64_t number(const Cell& cell, std::uint64_t least, std::uint64_t most, const char* expected) {
     std::uint64_t value = 0;
-    std::string_view text = cell.text;
+    const std::string plain = csv::as_quantity(cell.text, "", separator_ != ',');
+    std::string_view text = plain;
     if (text.ends_with("B")) text.remove_suffix(1);
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (!text.empty() && error == std::errc() && stop == text.data() + text.size() && value >= least && value <= most) return value;
@@ -123,7 +71,7 @@ class StreamsReader {
     return least;
   }
   sim::Duration duration(const Cell& cell) {
-    const auto parsed = json::parse_duration(cell.text);
+    const auto parsed = json::parse_duration(csv::as_quantity(cell.text, "", separator_ != ','));
     if (parsed) return *parsed;
     refuse(cell, "not a duration: " + parsed.reason().message, "such as 500us", parsed.reason().suggestion);
     return sim::Duration::from_ps(1'000'000'000);
@@ -147,13 +95,14 @@ class StreamsReader {
   }
 
   void read_row(const Row& row, std::vector<scenario::Stream>& streams) {
-    if (row.size() != order_.size()) return diagnostics_.error(row.front().place, "a row of another length than the header", {std::to_string(row.size()) + " cells", std::to_string(order_.size())});
     scenario::Stream stream;
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (!row[i].text.empty()) order_[i]->set(*this, row[i], stream);
       else if (order_[i]->is_required) refuse(row[i], "an empty cell", "a value");
     }
     if (std::ranges::any_of(streams, [&](const scenario::Stream& each) { return each.name == stream.name; })) diagnostics_.error(row.front().place, "a stream twice", {json::quote(stream.name) + " a second time", "a name of its own"});
+    imported_.origins["/streams/" + std::to_string(streams.size())] = row.front().place;
+    for (std::size_t i = 0; i < row.size(); ++i) imported_.origins["/streams/" + std::to_string(streams.size()) + "/" + std::string(order_[i]->name)] = row[i].place;
     streams.push_back(std::move(stream));
   }
 
@@ -161,9 +110,31 @@ class StreamsReader {
   std::vector<std::pair<std::string, sim::Duration>> latencies;   ///< required of streams
 
  private:
+  Imported& imported_;
   json::Diagnostics& diagnostics_;
   std::vector<const Column*> order_;
+  char separator_ = ',';
 };
+
+/// Devices that only cables name: what has more than one cable is a switch.
+void add_ends_of_cables(scenario::Scenario& scenario, Imported& imported) {
+  std::map<std::string, std::size_t> cables;
+  std::vector<std::string> names;
+  for (const scenario::Link& link : scenario.network.links)
+    for (const std::string& end : link.ends) {
+      const std::string name = end.substr(0, end.rfind(':'));
+      if (cables[name]++ == 0) names.push_back(name);
+    }
+  std::size_t made = 0;
+  for (const std::string& name : names) {
+    if (std::ranges::any_of(scenario.network.nodes, [&](const auto& each) { return each.first == name; })) continue;
+    scenario.network.nodes.emplace_back(name, cables[name] > 1 ? scenario::Node(scenario::SwitchNode{}) : scenario::Node(scenario::HostNode{}));
+    ++made;
+  }
+  if (made == 0 || !scenario.network.generate.empty()) return;
+  const json::Place place = imported.origins.empty() ? json::Place{} : json::Place{imported.origins.begin()->second.file, 0, 0, ""};
+  imported.remark(RemarkKind::changed, place, std::to_string(made) + " devices of which no table says the kind: those with more than one cable are switches, the others hosts");
+}
 
 }  // namespace
 
@@ -177,11 +148,24 @@ Imported import_csv(const ImportRequest& request, json::Diagnostics& diagnostics
     scenario.duration = sim::Duration::from_ps(100'000'000'000);
   }
   std::vector<scenario::Stream> streams = scenario.streams;
-  StreamsReader reader(diagnostics);
-  for (const InputFile& file : request.files) reader.read(file, streams);
+  StreamsReader reader(imported, diagnostics);
+  bool has_network = request.base != nullptr;
+  for (const InputFile& file : request.files) {
+    const csv::Table table = csv::read_table(file, diagnostics);
+    const auto kind = csv::kind_of(table, diagnostics);
+    if (!kind) continue;
+    has_network = has_network || *kind == csv::TableKind::cables || *kind == csv::TableKind::devices;
+    switch (*kind) {
+      case csv::TableKind::streams: reader.read(table, streams); break;
+      case csv::TableKind::cables: csv::read_cables(table, scenario, imported, diagnostics); break;
+      case csv::TableKind::devices: csv::read_devices(table, scenario, imported, diagnostics); break;
+      case csv::TableKind::programs: csv::read_programs(table, scenario, imported, diagnostics); break;
+    }
+  }
   if (diagnostics.has_errors()) return imported;
+  if (has_network) add_ends_of_cables(scenario, imported);
   // Without a network: the hosts that are named, at one switch.
-  if (request.base == nullptr) {
+  if (!has_network) {
     std::set<std::string> hosts;
     for (const scenario::Stream& stream : streams) {
       hosts.insert(stream.from);
@@ -203,6 +187,7 @@ Imported import_csv(const ImportRequest& request, json::Diagnostics& diagnostics
     scenario::Requirement requirement;
     requirement.stream = name;
     requirement.latency.emplace().at_most = latency;
+    imported.origins["/require/" + std::to_string(scenario.require.size())] = imported.origins["/streams/" + std::to_string(std::ranges::find(scenario.streams, name, &scenario::Stream::name) - scenario.streams.begin())];
     scenario.require.push_back(std::move(requirement));
   }
   imported.scenario = std::move(scenario);

@@ -172,7 +172,131 @@ bool matches(std::string_view pattern, std::string_view path) {
 
 std::optional<json::Node> parse_value(std::string_view text) { return ValueParser(text).run(); }
 
-void Ini::read(const InputFile& file, const std::string& section, json::Diagnostics& diagnostics) {
+namespace {
+
+/// "1,2,4", "1..5 step 2": the values.
+std::vector<std::string> iterated(std::string_view text) {
+  std::vector<std::string> values;
+  const auto read_number = [](const std::string& word) -> std::optional<std::int64_t> {
+    std::int64_t value = 0;
+    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && !word.empty() && stop == word.data() + word.size() ? std::optional(value) : std::nullopt;
+  };
+  std::string item;
+  int depth = 0;
+  bool is_quoted = false;
+  const auto end_item = [&] {
+    const std::string one = trimmed(item);
+    item.clear();
+    const std::size_t dots = one.find("..");
+    const std::size_t step_at = one.find(" step ");
+    const auto first = dots == std::string::npos ? std::nullopt : read_number(trimmed(one.substr(0, dots)));
+    const auto last = dots == std::string::npos ? std::nullopt : read_number(trimmed(one.substr(dots + 2, step_at == std::string::npos ? step_at : step_at - dots - 2)));
+    const auto step = step_at == std::string::npos ? std::optional<std::int64_t>(1) : read_number(trimmed(one.substr(step_at + 6)));
+    if (!first || !last || !step || *step <= 0) return values.push_back(one);
+    for (std::int64_t n = *first; n <= *last && values.size() < 10'000; n += *step) values.push_back(std::to_string(n));
+  };
+  for (const char c : text) {
+    if (c == '"') is_quoted = !is_quoted;
+    if (c == '(' || c == '[' || c == '{') ++depth;
+    if (c == ')' || c == ']' || c == '}') --depth;
+    if (c == ',' && depth == 0 && !is_quoted) end_item();
+    else item += c;
+  }
+  end_item();
+  return values;
+}
+
+/// The iterations of all lines, with the values of one run in their place.
+class Iterations {
+ public:
+  Iterations(std::uint64_t run, const std::string& section) : run_(run) { chosen_["configname"] = section; chosen_["runnumber"] = std::to_string(run); chosen_["repetition"] = "0"; }
+
+  void find(const std::vector<IniLine>& lines) {
+    for (const IniLine& line : lines)
+      for_each(line.value, [&](const std::string& inside) {
+        const std::size_t equals = inside.find('=');
+        const bool is_named = equals != std::string::npos && inside.find_first_of("<>!\"") > equals;
+        const std::string name = is_named ? trimmed(inside.substr(0, equals)) : inside;
+        std::string values = is_named ? inside.substr(equals + 1) : inside;
+        if (!is_named && inside.find(',') == std::string::npos && inside.find("..") == std::string::npos) return;
+        if (chosen_.contains(name) || std::ranges::any_of(all_, [&](const Iteration& each) { return each.name == name; })) return;
+        Iteration made{name, {}, ""};
+        if (const std::size_t mark = values.rfind('!'); mark != std::string::npos) {
+          made.beside = trimmed(values.substr(mark + 1));
+          values.resize(mark);
+        }
+        made.values = iterated(values);
+        all_.push_back(std::move(made));
+      });
+    choose();
+  }
+  std::uint64_t runs() const { return runs_; }
+  bool any() const { return !all_.empty(); }
+
+  std::string replaced(const std::string& value) const {
+    std::string out;
+    std::size_t at = 0;
+    while (true) {
+      const std::size_t open = value.find("${", at);
+      const std::size_t close = open == std::string::npos ? open : end_of(value, open);
+      if (close == std::string::npos) return out + value.substr(at);
+      const std::string inside = value.substr(open + 2, close - open - 2);
+      const std::size_t equals = inside.find('=');
+      const bool is_named = equals != std::string::npos && inside.find_first_of("<>!\"") > equals;
+      const auto found = chosen_.find(is_named ? trimmed(inside.substr(0, equals)) : trimmed(inside));
+      out += value.substr(at, open - at) + (found == chosen_.end() ? "${" + inside + "}" : found->second);
+      at = close + 1;
+    }
+  }
+
+ private:
+  struct Iteration {
+    std::string name;
+    std::vector<std::string> values;
+    std::string beside;    ///< another, whose place it takes
+  };
+  static std::size_t end_of(const std::string& value, std::size_t open) {
+    int depth = 0;
+    for (std::size_t i = open + 1; i < value.size(); ++i) {
+      if (value[i] == '{') ++depth;
+      if (value[i] == '}' && --depth == 0) return i;
+    }
+    return std::string::npos;
+  }
+  template <class Use>
+  static void for_each(const std::string& value, Use use) {
+    for (std::size_t open = value.find("${"); open != std::string::npos; open = value.find("${", open + 2))
+      if (const std::size_t close = end_of(value, open); close != std::string::npos) use(value.substr(open + 2, close - open - 2));
+  }
+  /// The first varies slowest.
+  void choose() {
+    std::map<std::string, std::size_t> places;
+    std::uint64_t rest = run_;
+    runs_ = 1;
+    for (auto each = all_.rbegin(); each != all_.rend(); ++each) {
+      if (!each->beside.empty() || runs_ > 1'000'000) continue;
+      const std::uint64_t count = std::max<std::uint64_t>(each->values.size(), 1);
+      places[each->name] = static_cast<std::size_t>(rest % count);
+      rest /= count;
+      runs_ *= count;
+    }
+    for (const Iteration& each : all_) {
+      const std::size_t place = each.beside.empty() ? places[each.name] : places[each.beside];
+      chosen_[each.name] = each.values.empty() ? "" : each.values[std::min(place, each.values.size() - 1)];
+    }
+    for (auto& [name, value] : chosen_) value = replaced(value);
+  }
+
+  std::uint64_t run_;
+  std::uint64_t runs_ = 1;
+  std::vector<Iteration> all_;
+  std::map<std::string, std::string> chosen_;
+};
+
+}  // namespace
+
+void Ini::read(const InputFile& file, const std::string& section, std::uint64_t run, std::vector<Remark>& remarks, json::Diagnostics& diagnostics) {
   struct Section {
     std::vector<IniLine> lines;
     std::string extends;
@@ -210,7 +334,6 @@ void Ini::read(const InputFile& file, const std::string& section, json::Diagnost
     const std::size_t equals = content.find('=');
     if (equals == std::string::npos) { diagnostics.error(place, "not a setting", {json::quote(content), "KEY = VALUE"}); continue; }
     IniLine made{trimmed(std::string_view(content).substr(0, equals)), trimmed(std::string_view(content).substr(equals + 1)), place, false};
-    if (made.value.find("${") != std::string::npos) diagnostics.error(place, "an iteration", {json::quote(made.value), "one value"});
     if (made.key == "extends") { sections[current].extends = made.value; continue; }
     sections[current].lines.push_back(std::move(made));
     last = &sections[current].lines.back();
@@ -233,6 +356,14 @@ void Ini::read(const InputFile& file, const std::string& section, json::Diagnost
       bases.remove_prefix(comma == std::string_view::npos ? bases.size() : comma + 1);
     }
     if (i + 1 == order.size() && !seen.contains("General")) order.emplace_back("General");
+  }
+  Iterations iterations(run, section);
+  iterations.find(lines_);
+  if (iterations.any() && run >= iterations.runs()) diagnostics.error({file.name, 0, 0, ""}, "no such run", {"run " + std::to_string(run), "0 to " + std::to_string(iterations.runs() - 1)});
+  if (iterations.any() && iterations.runs() > 1) remarks.push_back({RemarkKind::odd, {file.name, 0, 0, ""}, "one of " + std::to_string(iterations.runs()) + " runs of its iterations: number " + std::to_string(run) + " (-o run=N)"});
+  for (IniLine& line : lines_) {
+    line.value = iterations.replaced(line.value);
+    if (line.value.find("${") != std::string::npos) diagnostics.error(line.place, "a variable without a value", {json::quote(line.value), "an iteration of that name"});
   }
 }
 

@@ -15,12 +15,13 @@ struct IniLine {
   std::string key, value;
   json::Place place;          ///< of the key
   bool is_used = false;
+  bool is_of_ned = false;     ///< set by a NED file, for whoever looks: no mistake if nothing does
 };
 
 class Ini {
  public:
-  /// Reads [General], or another section and what it extends.
-  void read(const InputFile& file, const std::string& section, json::Diagnostics& diagnostics);
+  /// Reads [General], or another section and what it extends. Of iterations (${N=1,2,4}) the values of a run count, which are numbered as OMNeT++ does it.
+  void read(const InputFile& file, const std::string& section, std::uint64_t run, std::vector<Remark>& remarks, json::Diagnostics& diagnostics);
   /// The first line whose key matches the full path of a parameter ("Net.host.app[0].typename"), or nothing. It counts as understood.
   const IniLine* find(const std::string& path);
   /// A line of the whole configuration, such as network.

@@ -1,4 +1,4 @@
-// NED files of the subset that describes networks: submodules and connections.
+// NED files: types of networks, modules and channels as they are written. What a network of them is: ned_network.hpp.
 #pragma once
 
 #include <optional>
@@ -9,26 +9,56 @@
 
 namespace takt::interchange::inet {
 
-struct Submodule {
-  std::string name, type;
-  json::Place place;
-};
-struct Connection {
-  std::string a, b;                        ///< submodules
-  std::uint32_t a_eth = 0, b_eth = 0;      ///< index of the interface
-  std::string channel;
-  std::optional<std::string> datarate, length, delay;
-  json::Place place;
-};
-struct Network {
-  std::string name;
-  std::string package;
-  std::vector<Submodule> submodules;
-  std::vector<Connection> connections;
+/// "*.eth[*].bitrate = default(100Mbps)": a pattern below what it stands in.
+struct NedAssignment {
+  std::string pattern;
+  std::string expression;
+  bool is_default = false;      ///< an ini file comes before it
   json::Place place;
 };
 
-/// The networks of a file. What is not of the subset is a diagnostic with its line.
-std::vector<Network> read_ned(const InputFile& file, json::Diagnostics& diagnostics);
+struct NedSubmodule {
+  std::string name;
+  std::string size;             ///< of an array, an expression; empty: one
+  std::string type;             ///< its last part; of "<...> like ..." empty
+  std::string chosen;           ///< the expression between < and >
+  bool is_chosen = false;       ///< <...> like INTERFACE
+  std::string condition;
+  std::vector<NedAssignment> parameters;
+  json::Place place;
+};
+
+struct NedEnd {
+  std::string node;
+  std::string index;            ///< of an array of nodes, an expression
+  std::string gate;             ///< of the interface, an expression; empty: the next ("++")
+  bool is_ethernet = true;      ///< a gate called ethg
+};
+
+struct NedConnection {
+  NedEnd a, b;
+  std::string channel;          ///< its last part; empty: none
+  std::vector<NedAssignment> parameters;
+  /// Loops and conditions around it, from the outermost: "for NAME = FROM .. TO", or a condition with an empty name.
+  struct Bracket {
+    std::string name, from, to;
+  };
+  std::vector<Bracket> brackets;
+  json::Place place;
+};
+
+struct NedType {
+  enum class Kind : std::uint8_t { network, module, channel };
+  Kind kind = Kind::network;
+  std::string name, package;
+  std::string base;             ///< the last part of what it extends; empty: nothing
+  std::vector<NedAssignment> parameters;
+  std::vector<NedSubmodule> submodules;
+  std::vector<NedConnection> connections;
+  json::Place place;
+};
+
+/// The types of a file, those within other types too. What is no NED is a diagnostic with its line.
+std::vector<NedType> read_ned(const InputFile& file, json::Diagnostics& diagnostics);
 
 }  // namespace takt::interchange::inet

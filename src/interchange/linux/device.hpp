@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "interchange/import.hpp"
 #include "json/diagnostics.hpp"
 
 namespace takt::interchange::linux_tc {
@@ -50,7 +51,7 @@ struct Classes {
   At<std::uint64_t> flags;
   std::optional<At<std::int64_t>> txtime_delay;
   std::optional<At<std::string>> clock;
-  bool is_dumped = false;           ///< printed by the kernel: max_sdu there is no setting
+  bool is_dumped = false;           ///< printed by the kernel: max_sdu there is no setting, and there are 16 statuses of preemption
 };
 
 struct CreditShaper {
@@ -117,12 +118,13 @@ struct Interface {
   bool has_clsact = false;
   std::vector<IngressFilter> filters;
   bool untagged = false;            ///< the VLANs of the port leave it without tag
-  std::optional<std::uint64_t> rate;    ///< bit/s, as the machine prints it
+  std::optional<std::uint64_t> rate;    ///< bit/s, as the machine prints it or ethtool -s sets it
 };
 
 struct Machine {
   std::vector<std::pair<std::string, Interface>> interfaces;   ///< in the order of first mention
   bool has_bridge = false;
+  std::vector<Remark> remarks;      ///< what was read and sets nothing, or something that takt has not
   Interface& interface(const std::string& name, const json::Place& place) {
     for (auto& [each, value] : interfaces)
       if (each == name) return value;

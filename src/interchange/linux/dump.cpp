@@ -18,6 +18,7 @@ class DumpReader {
       if (item.find("kind") != nullptr && item.find("handle") != nullptr) read_qdisc(item);
       else if (item.find("ifindex") != nullptr) read_link(item);
       else if (item.find("vlans") != nullptr) read_vlans(item);
+      else if (item.find("mac") != nullptr || item.find("mdb") != nullptr) machine_.has_bridge = true;   // addresses follow from paths in takt
       else refuse(item, "a qdisc, a link or the VLANs of a port");
     }
   }
@@ -98,15 +99,23 @@ class DumpReader {
     read_queues(options, classes);
     if (const json::Node* const fp = options.find("fp"); fp != nullptr && expect(*fp, json::Kind::array, "an array"))
       for (const json::Node& status : fp->items) classes.preemptable.push_back({status.text == "P", place(status)});
+    // The kernel prints 16, also where nothing is preemptable.
+    if (classes.num_tc.value >= 1 && classes.preemptable.size() > static_cast<std::size_t>(classes.num_tc.value)) classes.preemptable.resize(static_cast<std::size_t>(classes.num_tc.value));
+    if (std::ranges::none_of(classes.preemptable, [](const At<bool>& each) { return each.value; })) classes.preemptable.clear();
     if (kind == ClassKind::mqprio) return classes;
-    classes.base_time = number(options, "base_time");
-    if (const json::Node* const cycle = options.find("cycle_time"); cycle != nullptr) classes.cycle_time = number(*cycle);
-    classes.extension = number(options, "cycle_time_extension");
+    // A list that is not in force yet is what the port is set to.
+    const json::Node* const admin = options.find("admin");
+    const bool has_admin = admin != nullptr && admin->kind == json::Kind::object && admin->find("schedule") != nullptr;
+    if (has_admin && options.find("schedule") != nullptr) machine_.remarks.push_back({RemarkKind::changed, place(*admin), "a gate list that is not in force yet (admin): it is taken, and not the one that runs"});
+    const json::Node& list = has_admin ? *admin : options;
+    classes.base_time = number(list, "base_time");
+    if (const json::Node* const cycle = list.find("cycle_time"); cycle != nullptr) classes.cycle_time = number(*cycle);
+    classes.extension = number(list, "cycle_time_extension");
     const At<std::int64_t> flags = number(options, "flags");
     classes.flags = {static_cast<std::uint64_t>(flags.value), flags.place};
     if (options.find("txtime_delay") != nullptr) classes.txtime_delay = number(options, "txtime_delay");
     if (const json::Node* const clock = options.find("clockid"); clock != nullptr && (flags.value & 2) == 0) classes.clock = At<std::string>{clock->text, place(*clock)};
-    const json::Node* const schedule = options.find("schedule");
+    const json::Node* const schedule = list.find("schedule");
     if (schedule == nullptr || !expect(*schedule, json::Kind::array, "an array")) return classes;
     for (const json::Node& entry : schedule->items) {
       if (!expect(entry, json::Kind::object, "an entry of a gate list")) continue;

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "interchange/linux/meaning.hpp"
+#include "interchange/linux/ptp4l_keys.hpp"
+#include "json/printable.hpp"
 #include "json/quantity.hpp"
 #include "json/suggest.hpp"
 #include "scenario/resolve/gptp_links.hpp"
@@ -15,71 +17,6 @@ namespace takt::interchange::linux_tc {
 namespace {
 
 using sim::Duration;
-
-enum class ValueKind : std::uint8_t { whole, real, text };
-
-/// What a reader has at hand when a key sets something.
-struct Target {
-  scenario::Gptp& gptp;
-  scenario::GptpNode& node;
-  scenario::Clock& clock;
-  bool& has_clock;
-  bool& never_grandmaster;
-  bool& receiver_only;
-  bool& is_gptp;
-};
-
-struct Key {
-  std::string_view name;
-  ValueKind kind = ValueKind::whole;
-  double least = 0, most = 0;
-  void (*set)(Target& target, double value, const std::string& text) = nullptr;   ///< null: has no meaning in takt
-};
-
-constexpr double any = 2147483647;
-
-const std::vector<Key>& keys() {
-  static const std::vector<Key> all = {
-      {"logSyncInterval", ValueKind::whole, -128, 127, [](Target& t, double v, const std::string&) { t.gptp.log_sync_interval = static_cast<std::int8_t>(v); }},
-      {"logAnnounceInterval", ValueKind::whole, -128, 127, [](Target& t, double v, const std::string&) { t.gptp.log_announce_interval = static_cast<std::int8_t>(v); }},
-      {"logMinPdelayReqInterval", ValueKind::whole, -128, 127, [](Target& t, double v, const std::string&) { t.gptp.log_pdelay_interval = static_cast<std::int8_t>(v); }},
-      {"syncReceiptTimeout", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.gptp.sync_receipt_timeout = static_cast<std::uint8_t>(v); }},
-      {"announceReceiptTimeout", ValueKind::whole, 2, 255, [](Target& t, double v, const std::string&) { t.gptp.announce_receipt_timeout = static_cast<std::uint8_t>(v); }},
-      {"neighborPropDelayThresh", ValueKind::whole, 0, any, [](Target& t, double v, const std::string&) { t.gptp.link_delay_threshold = Duration::from_ps(static_cast<std::int64_t>(v) * 1000); }},
-      {"priority1", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.priority1 = static_cast<std::uint8_t>(v); }},
-      {"priority2", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.priority2 = static_cast<std::uint8_t>(v); }},
-      {"clockClass", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.clock_class = static_cast<std::uint8_t>(v); }},
-      {"clockAccuracy", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.clock_accuracy = static_cast<std::uint8_t>(v); }},
-      {"gmCapable", ValueKind::whole, 0, 1, [](Target& t, double v, const std::string&) { t.never_grandmaster = v == 0; }},
-      {"slaveOnly", ValueKind::whole, 0, 1, [](Target& t, double v, const std::string&) { t.receiver_only = v != 0; }},
-      {"twoStepFlag", ValueKind::whole, 0, 1, [](Target& t, double v, const std::string&) { t.gptp.one_step = v == 0; }},
-      {"clock_servo", ValueKind::text, 0, 0, [](Target& t, double, const std::string&) { t.gptp.servo.algorithm = scenario::ServoAlgorithm::pi; }},
-      {"first_step_threshold", ValueKind::real, 0, 1e9, [](Target& t, double v, const std::string&) { t.gptp.servo.first_step_threshold = Duration::from_ps(std::llround(v * 1e12)); }},
-      {"step_threshold", ValueKind::real, 0, 1e9, [](Target& t, double v, const std::string&) { t.gptp.servo.step_threshold = Duration::from_ps(std::llround(v * 1e12)); }},
-      {"max_frequency", ValueKind::whole, 0, any, [](Target& t, double v, const std::string&) { t.gptp.servo.max_frequency = {static_cast<std::int64_t>(v) * 1000}; }},
-      {"egressLatency", ValueKind::whole, -any, any, [](Target& t, double v, const std::string&) { t.clock.tx_correction = Duration::from_ps(static_cast<std::int64_t>(v) * 1000); t.has_clock = true; }},
-      {"ingressLatency", ValueKind::whole, -any, any, [](Target& t, double v, const std::string&) { t.clock.rx_correction = Duration::from_ps(static_cast<std::int64_t>(v) * 1000); t.has_clock = true; }},
-      {"transportSpecific", ValueKind::whole, 0, 15, [](Target& t, double v, const std::string&) { t.is_gptp = v == 1; }},
-      // What has no key in takt, or the only value that it has.
-      {"domainNumber", ValueKind::whole, 0, 127}, {"offsetScaledLogVariance", ValueKind::whole, 0, 65535}, {"min_neighbor_prop_delay", ValueKind::whole, -any, any},
-      {"assume_two_step", ValueKind::whole, 0, 1}, {"path_trace_enabled", ValueKind::whole, 0, 1}, {"follow_up_info", ValueKind::whole, 0, 1}, {"ptp_dst_mac", ValueKind::text},
-      {"p2p_dst_mac", ValueKind::text}, {"network_transport", ValueKind::text}, {"delay_mechanism", ValueKind::text}, {"boundary_clock_jbod", ValueKind::whole, 0, 1},
-      {"pi_proportional_const", ValueKind::real, 0, any}, {"pi_integral_const", ValueKind::real, 0, any}, {"pi_proportional_scale", ValueKind::real, 0, any}, {"pi_proportional_exponent", ValueKind::real, -any, any},
-      {"pi_proportional_norm_max", ValueKind::real, 0, 1}, {"pi_integral_scale", ValueKind::real, 0, any}, {"pi_integral_exponent", ValueKind::real, -any, any}, {"pi_integral_norm_max", ValueKind::real, 0, 2},
-      {"masterOnly", ValueKind::whole, 0, 1}, {"BMCA", ValueKind::text}, {"inhibit_announce", ValueKind::whole, 0, 1}, {"inhibit_multicast_service", ValueKind::whole, 0, 1}, {"inhibit_delay_req", ValueKind::whole, 0, 1},
-      {"asCapable", ValueKind::text}, {"ignore_source_id", ValueKind::whole, 0, 1}, {"time_stamping", ValueKind::text}, {"tx_timestamp_timeout", ValueKind::whole, 1, any}, {"summary_interval", ValueKind::whole, -any, any},
-      {"logging_level", ValueKind::whole, 0, 7}, {"verbose", ValueKind::whole, 0, 1}, {"use_syslog", ValueKind::whole, 0, 1}, {"free_running", ValueKind::whole, 0, 1}, {"freq_est_interval", ValueKind::whole, 0, any},
-      {"fault_reset_interval", ValueKind::text}, {"fault_badpeernet_interval", ValueKind::text}, {"delayAsymmetry", ValueKind::whole, -any, any}, {"delay_filter", ValueKind::text}, {"delay_filter_length", ValueKind::whole, 1, any},
-      {"dataset_comparison", ValueKind::text}, {"G.8275.defaultDS.localPriority", ValueKind::whole, 1, 255}, {"G.8275.portDS.localPriority", ValueKind::whole, 1, 255}, {"maxStepsRemoved", ValueKind::whole, 2, 255},
-      {"logMinDelayReqInterval", ValueKind::whole, -128, 127}, {"operLogSyncInterval", ValueKind::whole, -128, 127}, {"operLogPdelayReqInterval", ValueKind::whole, -128, 127}, {"msg_interval_request", ValueKind::whole, 0, 1},
-      {"hybrid_e2e", ValueKind::whole, 0, 1}, {"net_sync_monitor", ValueKind::whole, 0, 1}, {"tc_spanning_tree", ValueKind::whole, 0, 1}, {"kernel_leap", ValueKind::whole, 0, 1}, {"check_fup_sync", ValueKind::whole, 0, 1},
-      {"clock_type", ValueKind::text}, {"sanity_freq_limit", ValueKind::whole, 0, any}, {"servo_num_offset_values", ValueKind::whole, 0, any}, {"servo_offset_threshold", ValueKind::whole, 0, any}, {"utc_offset", ValueKind::whole, 0, 32767},
-      {"timeSource", ValueKind::whole, 0, 254}, {"uds_address", ValueKind::text}, {"udp_ttl", ValueKind::whole, 1, 255}, {"udp6_scope", ValueKind::whole, 0, 15}, {"dscp_event", ValueKind::whole, 0, 63}, {"dscp_general", ValueKind::whole, 0, 63},
-      {"socket_priority", ValueKind::whole, 0, 15}, {"productDescription", ValueKind::text}, {"revisionData", ValueKind::text}, {"manufacturerIdentity", ValueKind::text}, {"userDescription", ValueKind::text}, {"clockIdentity", ValueKind::text},
-      {"neighborPropDelay", ValueKind::whole, 0, any}, {"hwts_filter", ValueKind::text}, {"tsproc_mode", ValueKind::text}, {"write_phase_mode", ValueKind::whole, 0, 1}, {"unicast_listen", ValueKind::whole, 0, 1},
-  };
-  return all;
-}
 
 /// A whole number, decimal or hexadecimal, or a fraction; null if it is none of the kind.
 std::optional<double> number(std::string_view text, ValueKind kind) {
@@ -99,7 +36,21 @@ class Ptp4lReader {
  public:
   Ptp4lReader(const InputFile& file, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) : file_(file), device_(device), imported_(imported), diagnostics_(diagnostics) {}
 
+  /// Where a file is silent, linuxptp's defaults hold, which are not those of IEEE 802.1AS.
   void run() {
+    node_.priority1 = 128;
+    node_.priority2 = 128;
+    node_.clock_class = 248;
+    node_.clock_accuracy = 0xFE;
+    gptp_.log_sync_interval = 0;
+    gptp_.log_announce_interval = 1;
+    gptp_.log_pdelay_interval = 0;
+    gptp_.sync_receipt_timeout = 0;
+    gptp_.announce_receipt_timeout = 3;
+    gptp_.link_delay_threshold = Duration::from_ps(20'000'000'000);
+    gptp_.servo.first_step_threshold = Duration::from_ps(20'000'000);
+    gptp_.servo.step_threshold = Duration();
+    gptp_.servo.max_frequency = {900'000'000'000};
     std::string_view rest = file_.text;
     for (line_ = 1; !rest.empty(); ++line_) {
       const std::size_t end = rest.find('\n');
@@ -109,6 +60,14 @@ class Ptp4lReader {
     const json::Place whole{file_.name, 0, 0, ""};
     if (never_grandmaster_ && receiver_only_) diagnostics_.error(whole, "two ways at once to be no grandmaster", {"gmCapable 0 and slaveOnly 1", "gmCapable 0 alone, which is that of IEEE 802.1AS"});
     if (!is_gptp_) imported_.remark(RemarkKind::lost, whole, "not gPTP (transportSpecific 0x1 is not set): takt speaks IEEE 802.1AS");
+    if (!says_mechanism_) imported_.remark(RemarkKind::lost, whole, "delays measured end to end, as ptp4l does it where the file is silent: takt measures each link (delay_mechanism P2P)");
+    if (!says_transport_) imported_.remark(RemarkKind::lost, whole, "messages over UDP, as ptp4l sends them where the file is silent: takt's are Ethernet frames (network_transport L2)");
+    if (gptp_.sync_receipt_timeout < least_timeout) {
+      if (gptp_.sync_receipt_timeout == 0) imported_.remark(RemarkKind::lost, whole, "no time-out of Sync (syncReceiptTimeout 0, linuxptp's default): takt takes 3 intervals, as IEEE 802.1AS");
+      else imported_.remark(RemarkKind::lost, whole, "a time-out of Sync after one interval: takt takes 3");
+      gptp_.sync_receipt_timeout = 3;
+    }
+    set_roles();
     if (never_grandmaster_ || receiver_only_) node_.priority1 = 255;
     if (gptp_.servo.algorithm == scenario::ServoAlgorithm::drift_tracking) gptp_.servo.algorithm = scenario::ServoAlgorithm::pi;
     device_.gptp = node_;
@@ -126,7 +85,11 @@ class Ptp4lReader {
     if (line[at] == '[') {
       const std::size_t close = line.find(']', at);
       if (close == std::string_view::npos) diagnostics_.error(place(at), "a section that does not end", {json::quote(line.substr(at)), "[global] or [INTERFACE]"});
-      else section_ = std::string(line.substr(at + 1, close - at - 1));
+      else {
+        section_ = std::string(line.substr(at + 1, close - at - 1));
+        if (section_ == "unicast_master_table") imported_.remark(RemarkKind::lost, place(at), "unicast messages: takt's gPTP is multicast");
+        else if (section_ != "global" && std::ranges::find(interfaces_, section_) == interfaces_.end()) interfaces_.push_back(section_);
+      }
       return;
     }
     std::size_t key_end = at;
@@ -138,13 +101,12 @@ class Ptp4lReader {
     const std::string_view name = line.substr(at, key_end - at);
     const std::string value(line.substr(value_at, value_end - value_at));
     if (section_.empty()) return diagnostics_.error(place(at), "a line in no section", {json::quote(name), "[global] or [INTERFACE] before it"});
-    const auto key = std::ranges::find(keys(), name, &Key::name);
-    if (key == keys().end()) {
+    const std::span<const Key> keys = ptp4l_keys();
+    const auto key = std::ranges::find(keys, ptp4l_key(name), &Key::name);
+    if (key == keys.end()) {
       std::vector<std::string_view> names;
-      for (const Key& each : keys()) names.push_back(each.name);
-      const bool is_of_version_4 = name == "serverOnly" || name == "clientOnly";
-      return diagnostics_.error(place(at), "unknown option", {json::quote(name), is_of_version_4 ? "the name of linuxptp 3 (version 4 has others)" : "an option of ptp4l",
-                                                              name == "serverOnly" ? "masterOnly" : name == "clientOnly" ? "slaveOnly" : json::suggest(name, names)});
+      for (const Key& each : keys) names.push_back(each.name);
+      return diagnostics_.error(place(at), "unknown option", {json::quote(name), "an option of ptp4l", json::suggest(name, names)});
     }
     double read = 0;
     if (key->kind != ValueKind::text) {
@@ -158,14 +120,49 @@ class Ptp4lReader {
     if (name == "clock_servo" && value != "pi") return diagnostics_.error(place(value_at), "a servo that takt does not have", {json::quote(value), "pi"});
     if (name == "domainNumber" && read != 0) return diagnostics_.error(place(value_at), "a further domain", {"domain " + value, "domain 0, the only one that is read"});
     if (section_ != "global" && (name == "egressLatency" || name == "ingressLatency")) imported_.remark(RemarkKind::lost, place(at), std::string(name) + " of " + section_ + " alone: takt has it of the node");
-    if (key->set == nullptr) {
-      if (name == "offsetScaledLogVariance") imported_.remark(RemarkKind::ignored, place(at), "offsetScaledLogVariance has no key in takt");
-      return;
-    }
+    says_mechanism_ = says_mechanism_ || name == "delay_mechanism";
+    says_transport_ = says_transport_ || name == "network_transport";
+    if (key->set == nullptr) return judge(*key, read, value, place(at));
     Target target{gptp_, node_, clock_, has_clock_, never_grandmaster_, receiver_only_, is_gptp_};
     key->set(target, read, value);
   }
 
+  /// A key that sets nothing in takt.
+  void judge(const Key& key, double read, const std::string& value, const json::Place& place) {
+    if (key.name == "BMCA") {
+      if (value == "noop") has_fixed_roles_ = true;
+      else if (value != "ptp") diagnostics_.error(place, "malformed value", {json::quote(value) + " for BMCA", "ptp or noop"});
+    } else if (key.name == "masterOnly") {
+      if (section_ == "global") transmits_by_default_ = read != 0;
+      else if (read != 0) transmitters_.emplace_back(section_, place);
+      if (read != 0) first_transmitter_ = first_transmitter_.value_or(place);
+    } else if (key.name == "offsetScaledLogVariance") {
+      imported_.remark(RemarkKind::ignored, place, "offsetScaledLogVariance has no key in takt");
+    } else if (!key.otherwise.empty() && !is_usual(key, read, value)) {
+      imported_.remark(RemarkKind::lost, place, std::string(key.name) + " " + value + ": " + std::string(key.otherwise));
+    }
+  }
+
+  /// Ports whose roles BMCA does not choose.
+  void set_roles() {
+    if (!has_fixed_roles_) {
+      if (first_transmitter_) imported_.remark(RemarkKind::lost, *first_transmitter_, "a port that never follows (masterOnly, serverOnly) beside BMCA: takt's BMCA may let it");
+      return;
+    }
+    node_.roles.emplace();
+    for (const std::string& interface : interfaces_) {
+      scenario::GptpPortRole role;
+      role.to = interface;
+      const bool transmits = transmits_by_default_ || std::ranges::any_of(transmitters_, [&](const auto& each) { return each.first == interface; });
+      role.role = transmits ? scenario::GptpRole::time_transmitter : scenario::GptpRole::time_receiver;
+      node_.roles->push_back(std::move(role));
+      if (std::ranges::none_of(device_.ports, [&](const ImportedPort& port) { return port.interface == interface; })) device_.ports.push_back({interface, {file_.name, 0, 0, ""}, {}, {}, {}});
+    }
+    if (interfaces_.empty()) imported_.remark(RemarkKind::lost, {file_.name, 0, 0, ""}, "roles that BMCA does not choose (BMCA noop), of interfaces that the file does not name");
+    device_.gptp_by_roles = true;
+  }
+
+  static constexpr std::uint8_t least_timeout = 2;
   const InputFile& file_;
   ImportedDevice& device_;
   Imported& imported_;
@@ -176,6 +173,10 @@ class Ptp4lReader {
   scenario::GptpNode node_;
   scenario::Clock clock_;
   bool has_clock_ = false, never_grandmaster_ = false, receiver_only_ = false, is_gptp_ = false;
+  bool says_mechanism_ = false, says_transport_ = false, has_fixed_roles_ = false, transmits_by_default_ = false;
+  std::optional<json::Place> first_transmitter_;
+  std::vector<std::string> interfaces_;
+  std::vector<std::pair<std::string, json::Place>> transmitters_;
 };
 
 /// Where the scenario says none: that of copper, or where there is fibre, which has none, that which ptp4l has by default.
@@ -189,7 +190,7 @@ Duration default_threshold(const scenario::Resolved& resolved) {
 
 void read_ptp4l(const InputFile& file, ImportedDevice& device, Imported& imported, json::Diagnostics& diagnostics) { Ptp4lReader(file, device, imported, diagnostics).run(); }
 
-std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Device& device, Exported& exported) {
+std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Device& device, bool in_software, Exported& exported) {
   std::vector<Ptp4lFile> files;
   if (!resolved.scenario.clocks.gptp) return files;
   const scenario::Gptp& gptp = *resolved.scenario.clocks.gptp;
@@ -210,7 +211,7 @@ std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Dev
   lose(gptp.rate_ratio_window != 8 || gptp.average_link_delay != 1 || gptp.drift_window != 0, "windows of rate ratios and link delays");
 
   for (const auto& [domain, node] : domains) {
-    std::string text = fmt::format("# takt: gPTP of {} in scenario {}\n[global]\n", device.name, resolved.scenario.name);
+    std::string text = fmt::format("# takt: gPTP of {} in scenario {}\n[global]\n", json::printable(device.name), json::printable(resolved.scenario.name));
     const auto add = [&](std::string_view key, const std::string& value) { text += fmt::format("{:<24}{}\n", key, value); };
     const std::uint8_t priority1 = node.priority1.value_or(gptp.hot_standby ? 255 : 248);
     add("domainNumber", std::to_string(domain));
@@ -228,7 +229,8 @@ std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Dev
     if (threshold.ps() % 1000 != 0) exported.lose("clock of " + device.name, "a link delay threshold that is no whole number of ns");
     add("neighborPropDelayThresh", std::to_string(threshold.ps() / 1000));
     if (gptp.one_step) add("twoStepFlag", "0");
-    add("time_stamping", gptp.one_step ? "onestep" : "hardware");
+    if (gptp.one_step && in_software) exported.lose("clock of " + device.name, "one-step Sync, which the kernel cannot send");
+    add("time_stamping", in_software ? "software" : gptp.one_step ? "onestep" : "hardware");
     add("clock_servo", "pi");
     add("first_step_threshold", fmt::format("{:.12f}", static_cast<double>(gptp.servo.first_step_threshold.ps()) * 1e-12));
     add("step_threshold", fmt::format("{:.12f}", static_cast<double>(gptp.servo.step_threshold.ps()) * 1e-12));

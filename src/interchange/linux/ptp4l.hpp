@@ -11,6 +11,6 @@ struct Ptp4lFile {
   std::uint8_t domain = 0;
   std::string content;
 };
-std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Device& device, Exported& exported);
+std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Device& device, bool in_software, Exported& exported);
 
 }  // namespace takt::interchange::linux_tc

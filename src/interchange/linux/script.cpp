@@ -1,69 +1,16 @@
 #include "interchange/linux/script.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <functional>
+#include <iterator>
 
+#include "interchange/linux/words.hpp"
 #include "json/suggest.hpp"
 
 namespace takt::interchange::linux_tc {
 namespace {
-
-/// The words of one command, taken one after the other.
-class Words {
- public:
-  Words(const Command& command, json::Diagnostics& diagnostics) : command_(command), diagnostics_(diagnostics) {}
-
-  bool at_end() const { return next_ == command_.size(); }
-  const Word& peek() const { return command_[next_]; }
-  bool is_next(std::string_view text) const { return !at_end() && peek().text == text; }
-  bool take_if(std::string_view text) {
-    if (!is_next(text)) return false;
-    ++next_;
-    return true;
-  }
-  const Word& take() { return command_[next_++]; }
-  /// The next word; empty, and reported, if there is none.
-  Word take_value(const std::string& expected) {
-    if (!at_end()) return take();
-    const Word& last = command_.back();
-    json::Place place = last.place;
-    place.column += static_cast<std::uint32_t>(last.text.size());
-    diagnostics_.error(place, "the command ends", {"nothing behind " + json::quote(last.text), expected});
-    failed_ = true;
-    return {"", place};
-  }
-  void refuse(const Word& word, const std::string& message, const std::string& expected, std::string suggestion = {}) {
-    diagnostics_.error(word.place, message, {json::quote(word.text), expected, std::move(suggestion)});
-    failed_ = true;
-  }
-  At<std::int64_t> take_number(const std::string& expected, std::int64_t least, std::int64_t most, int base = 10) {
-    const Word word = take_value(expected);
-    const auto value = number(word.text, base);
-    if (!word.text.empty() && (!value || *value < least || *value > most)) refuse(word, "not a number that fits", expected);
-    return {value && *value >= least && *value <= most ? *value : least > 0 ? least : std::int64_t{0}, word.place};
-  }
-  static std::optional<std::int64_t> number(std::string_view text, int base = 10) {
-    if (base == 0) {
-      base = 10;
-      if (text.starts_with("0x") || text.starts_with("0X")) { text.remove_prefix(2); base = 16; }
-    }
-    std::int64_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-    if (text.empty() || error != std::errc() || stop != text.data() + text.size()) return std::nullopt;
-    return value;
-  }
-  bool failed() const { return failed_; }
-  json::Diagnostics& diagnostics() { return diagnostics_; }
-
- private:
-  const Command& command_;
-  json::Diagnostics& diagnostics_;
-  std::size_t next_ = 0;
-  bool failed_ = false;
-};
-
-constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
 
 std::string without_colon(std::string handle) {
   if (handle.ends_with(':')) handle.pop_back();
@@ -112,9 +59,9 @@ void read_gate_line(Words& words, Classes& classes) {
   line.place = operation.place;
   if (operation.text.size() == 1 && std::string_view("SHR").find(operation.text[0]) != std::string_view::npos) line.operation = operation.text[0];
   else if (!operation.text.empty()) words.refuse(operation, "not an operation of a gate list", "S (set), H (set and hold) or R (set and release)");
-  const At<std::int64_t> mask = words.take_number("a mask of classes, hexadecimal without 0x", 0, 0xFFFF'FFFF, 16);
+  const At<std::int64_t> mask = words.take_number("a mask of classes, hexadecimal with or without 0x", 0, 0xFFFF'FFFF, 16);
   line.mask = static_cast<std::uint64_t>(mask.value);
-  line.interval = words.take_number("an interval in ns", 0, 0xFFFF'FFFF).value;
+  line.interval = words.take_number("an interval in ns", 0, 0xFFFF'FFFF, 0).value;
   classes.entries.push_back(line);
 }
 
@@ -131,15 +78,15 @@ void read_classes(Words& words, Classes& classes) {
       {"queues", [&] { read_queues(words, classes); }},
       {"fp", [&] { read_preemption(words, classes); }},
       {"max-sdu", [&] { read_numbers(words, classes.max_sdu, "octets for each class"); }, true, false},
-      {"base-time", [&] { classes.base_time = words.take_number("ns since 1970", -most, most); }, true, false},
-      {"cycle-time", [&] { classes.cycle_time = words.take_number("a cycle in ns of at least 1", 1, most); }, true, false},
-      {"cycle-time-extension", [&] { classes.extension = words.take_number("ns", 0, most); }, true, false},
+      {"base-time", [&] { classes.base_time = words.take_number("ns since 1970", -most_ns, most_ns, 10); }, true, false},
+      {"cycle-time", [&] { classes.cycle_time = words.take_number("a cycle in ns of at least 1", 1, most_ns, 0); }, true, false},
+      {"cycle-time-extension", [&] { classes.extension = words.take_number("ns", 0, most_ns, 0); }, true, false},
       {"sched-entry", [&] { read_gate_line(words, classes); }, true, false},
       {"flags", [&] {
          const At<std::int64_t> flags = words.take_number("flags, 0x1 or 0x2", 0, 0xFFFF'FFFF, 0);
          classes.flags = {static_cast<std::uint64_t>(flags.value), flags.place};
        }, true, false},
-      {"txtime-delay", [&] { classes.txtime_delay = words.take_number("ns", 0, 0xFFFF'FFFF); }, true, false},
+      {"txtime-delay", [&] { classes.txtime_delay = words.take_number("ns", 0, 0xFFFF'FFFF, 0); }, true, false},
       {"clockid", [&] { const Word word = words.take_value("the name of a clock"); classes.clock = At<std::string>{word.text, word.place}; }, true, false},
       {"hw", [&] { words.take_number("0 to 2", 0, 2); }, false, true},
       {"mode", [&] { if (const Word word = words.take_value("dcb or channel"); word.text != "dcb" && word.text != "channel") words.refuse(word, "not a mode", "dcb or channel"); }, false, true},
@@ -182,23 +129,64 @@ void read_etf(Words& words, LaunchTimes& launch) {
   }
 }
 
+constexpr std::array other_qdiscs = {"pfifo", "bfifo", "pfifo_fast", "pfifo_head_drop", "mq", "noqueue", "fq", "fq_codel", "fq_pie", "codel", "sfq", "prio", "multiq", "htb", "hfsc", "ets", "tbf", "netem", "red", "cake", "drr", "qfq", "skbprio", "plug", "choke"};
+
+/// A size table says which octets the kernel counts of a frame; takt counts those on the wire.
+void skip_size_table(Words& words, const Word& start, Machine& machine) {
+  while (!words.at_end() && (words.is_next("overhead") || words.is_next("linklayer") || words.is_next("mtu") || words.is_next("tsize") || words.is_next("mpu"))) {
+    words.take();
+    words.take_value("a value");
+  }
+  machine.remarks.push_back({RemarkKind::ignored, start.place, "a size table (stab): takt counts what a frame takes on the wire"});
+}
+
+/// What a machine is set to by one qdisc of a parent is replaced by the next.
+template <class T>
+void set_below(std::vector<T>& all, T value) {
+  std::erase_if(all, [&](const T& each) { return each.parent == value.parent; });
+  all.push_back(std::move(value));
+}
+
+void delete_qdisc(const std::string& parent, bool at_root, bool at_ingress, Interface& interface) {
+  if (at_root) {
+    interface.classes.reset();
+    interface.shapers.clear();
+    interface.launches.clear();
+  } else if (at_ingress) {
+    interface.has_clsact = false;
+    interface.filters.clear();
+  } else {
+    std::erase_if(interface.shapers, [&](const CreditShaper& each) { return each.parent == parent; });
+    std::erase_if(interface.launches, [&](const LaunchTimes& each) { return each.parent == parent; });
+  }
+}
+
 void read_qdisc(Words& words, const Word& start, Machine& machine) {
-  if (!words.take_if("add") && !words.take_if("replace")) {
-    if (!words.at_end() && (words.is_next("del") || words.is_next("show"))) return;
-    words.refuse(words.at_end() ? start : words.take(), "not what a set of commands does to a qdisc", "add or replace");
+  if (words.at_end() || words.is_next("show") || words.is_next("list") || words.is_next("ls")) return;
+  const bool deletes = words.is_next("del") || words.is_next("delete");
+  if (!deletes && !words.is_next("add") && !words.is_next("replace") && !words.is_next("change")) {
+    words.refuse(words.take(), "not what a set of commands does to a qdisc", "add, replace, change or del");
     return;
   }
+  words.take();
   std::string device, parent, handle;
   json::Place device_place = start.place;
-  bool at_root = false;
+  bool at_root = false, at_ingress = false;
   while (!words.at_end()) {
     const Word& word = words.take();
     if (word.text == "dev") { const Word name = words.take_value("an interface"); device = name.text; device_place = name.place; }
     else if (word.text == "root") at_root = true;
     else if (word.text == "parent") { parent = words.take_value("root or HANDLE:CLASS").text; at_root = at_root || parent == "root"; }
     else if (word.text == "handle") handle = without_colon(words.take_value("a handle").text);
-    else if (word.text == "clsact" || word.text == "ingress") { machine.interface(device, device_place).has_clsact = true; return; }
-    else if (word.text == "taprio" || word.text == "mqprio") {
+    else if (word.text == "stab") skip_size_table(words, word, machine);
+    else if (word.text == "clsact" || word.text == "ingress") {
+      at_ingress = true;
+      if (deletes) continue;
+      machine.interface(device, device_place).has_clsact = true;
+      return;
+    } else if (deletes) {
+      continue;   // of which kind it is that goes
+    } else if (word.text == "taprio" || word.text == "mqprio") {
       Classes classes;
       classes.kind = word.text == "taprio" ? ClassKind::taprio : ClassKind::mqprio;
       classes.place = word.place;
@@ -206,7 +194,7 @@ void read_qdisc(Words& words, const Word& start, Machine& machine) {
       classes.handle = handle;
       read_classes(words, classes);
       Interface& interface = machine.interface(device, device_place);
-      // A second one at another place is told by check(); one at the same place replaces the first, as `replace` does.
+      // One at the same place replaces the first, as `replace` does.
       if (!words.failed()) {
         if (!at_root) words.diagnostics().error(word.place, word.text + " that is not at the root", {"parent " + json::quote(parent), "root or \"parent root\""});
         else interface.classes = std::move(classes);
@@ -215,12 +203,17 @@ void read_qdisc(Words& words, const Word& start, Machine& machine) {
     } else if (word.text == "cbs") {
       CreditShaper shaper{word.place, parent, {}, {}, {}, {}};
       read_cbs(words, shaper);
-      if (!words.failed()) machine.interface(device, device_place).shapers.push_back(shaper);
+      if (!words.failed()) set_below(machine.interface(device, device_place).shapers, shaper);
       return;
     } else if (word.text == "etf") {
       LaunchTimes launch{word.place, parent, {}, {}, false};
       read_etf(words, launch);
-      if (!words.failed()) machine.interface(device, device_place).launches.push_back(launch);
+      if (!words.failed()) set_below(machine.interface(device, device_place).launches, launch);
+      return;
+    } else if (std::ranges::find(other_qdiscs, word.text) != other_qdiscs.end()) {
+      machine.interface(device, device_place);
+      const bool only_stores = word.text == "pfifo" || word.text == "bfifo" || word.text == "pfifo_fast" || word.text == "mq" || word.text == "noqueue";
+      machine.remarks.push_back({only_stores ? RemarkKind::ignored : RemarkKind::lost, word.place, "the qdisc " + word.text + (only_stores ? ", which stores frames as takt's queues do; its limit is not read" : ", which takt has no model for")});
       return;
     } else {
       words.refuse(word, "a qdisc or key that is not understood", "dev, root, parent, handle; taprio, mqprio, cbs, etf or clsact");
@@ -228,113 +221,8 @@ void read_qdisc(Words& words, const Word& start, Machine& machine) {
     }
     if (words.failed()) return;
   }
+  if (deletes) return delete_qdisc(parent, at_root, at_ingress, machine.interface(device, device_place));
   words.refuse(start, "a command without a qdisc", "taprio, mqprio, cbs, etf or clsact");
-}
-
-void read_gate_action(Words& words, GateAction& gate) {
-  while (!words.at_end() && !words.failed()) {
-    if (words.is_next("action")) return;
-    const Word& word = words.take();
-    if (word.text == "index") gate.index = words.take_number("a number", 0, 0xFFFF'FFFF).value;
-    else if (word.text == "clockid") words.take_value("the name of a clock");
-    else if (word.text == "base-time") gate.base_time = words.take_number("ns", 0, most);
-    else if (word.text == "cycle-time") gate.cycle_time = words.take_number("ns", 1, most);
-    else if (word.text == "cycle-time-ext") words.take_number("ns", 0, most);
-    else if (word.text == "priority") gate.priority = words.take_number("an internal priority value, or -1", -1, 7).value;
-    else if (word.text == "sched-entry") {
-      StreamGateLine line;
-      const Word state = words.take_value("open or close");
-      line.place = state.place;
-      line.open = state.text == "open";
-      if (!line.open && state.text != "close" && !state.text.empty()) words.refuse(state, "not the state of a gate", "open or close");
-      line.interval = words.take_number("ns, at least 1", 1, 0xFFFF'FFFF).value;
-      line.priority = words.take_number("an internal priority value, or -1", -1, 7).value;
-      line.octets = words.take_number("octets, or -1", -1, 0x7FFF'FFFF).value;
-      gate.entries.push_back(line);
-    } else {
-      words.refuse(word, "not a key of a gate", "index, clockid, base-time, cycle-time, priority or sched-entry");
-    }
-  }
-}
-
-/// "10mbit", "3000": bits per second and octets as tc writes them.
-std::optional<std::int64_t> with_suffix(std::string_view text, const std::vector<std::pair<std::string_view, std::int64_t>>& suffixes) {
-  for (const auto& [suffix, factor] : suffixes) {
-    if (!text.ends_with(suffix)) continue;
-    const auto number = Words::number(text.substr(0, text.size() - suffix.size()));
-    if (number && *number >= 0 && *number <= most / factor) return *number * factor;
-  }
-  return std::nullopt;
-}
-
-void read_police_action(Words& words, PoliceAction& police) {
-  while (!words.at_end() && !words.failed()) {
-    if (words.is_next("action")) return;
-    const Word& word = words.take();
-    if (word.text == "index") police.index = words.take_number("a number", 0, 0xFFFF'FFFF).value;
-    else if (word.text == "rate") {
-      const Word rate = words.take_value("a rate");
-      const auto bits = with_suffix(rate.text, {{"gbit", 1'000'000'000}, {"mbit", 1'000'000}, {"kbit", 1'000}, {"bit", 1}, {"bps", 8}});
-      if (!bits) words.refuse(rate, "not a rate", "a whole number with bit, kbit, mbit or gbit");
-      police.rate = static_cast<std::uint64_t>(bits.value_or(0));
-    } else if (word.text == "burst") {
-      const Word burst = words.take_value("octets");
-      const auto octets = with_suffix(burst.text, {{"kb", 1024}, {"k", 1024}, {"b", 1}, {"", 1}});
-      if (!octets || *octets > 0xFFFF'FFFF) words.refuse(burst, "not a number of octets", "octets");
-      else police.burst = *octets;
-    } else if (word.text == "conform-exceed") {
-      const Word what = words.take_value("drop/pipe");
-      if (what.text != "drop" && what.text != "drop/pipe" && what.text != "drop/ok" && what.text != "drop/pass") words.refuse(what, "what takt's meters do not do", "drop, drop/pipe or drop/ok");
-    } else {
-      words.refuse(word, "not a key of police that takt has", "index, rate, burst or conform-exceed");
-    }
-  }
-}
-
-void read_flower(Words& words, IngressFilter& filter) {
-  while (!words.at_end() && !words.failed()) {
-    const Word& word = words.take();
-    if (word.text == "vlan_id") filter.vlan = words.take_number("a VLAN from 1 to 4094", 1, 4094).value;
-    else if (word.text == "vlan_prio") filter.priority = words.take_number("a priority from 0 to 7", 0, 7).value;
-    else if (word.text == "dst_mac") {
-      std::string address = words.take_value("an address").text;
-      std::ranges::transform(address, address.begin(), [](unsigned char c) { return c >= 'A' && c <= 'F' ? static_cast<char>(c - 'A' + 'a') : static_cast<char>(c); });
-      filter.address = address;
-    } else if (word.text == "skip_sw" || word.text == "skip_hw") continue;
-    else if (word.text == "action") {
-      const Word kind = words.take_value("gate or police");
-      if (kind.text == "gate") { filter.gate.emplace().place = kind.place; read_gate_action(words, *filter.gate); }
-      else if (kind.text == "police") { filter.police.emplace().place = kind.place; read_police_action(words, *filter.police); }
-      else if (!kind.text.empty()) words.refuse(kind, "an action that takt does not have", "gate or police");
-    } else {
-      words.refuse(word, "not a key of flower that takt has", "vlan_id, vlan_prio, dst_mac or action");
-    }
-  }
-}
-
-void read_filter(Words& words, const Word& start, Machine& machine) {
-  if (!words.take_if("add") && !words.take_if("replace")) {
-    words.refuse(words.at_end() ? start : words.take(), "not what a set of commands does to a filter", "add or replace");
-    return;
-  }
-  IngressFilter filter;
-  filter.place = start.place;
-  std::string device;
-  json::Place device_place = start.place;
-  bool is_ingress = false;
-  while (!words.at_end() && !words.failed()) {
-    const Word& word = words.take();
-    if (word.text == "dev") { const Word name = words.take_value("an interface"); device = name.text; device_place = name.place; }
-    else if (word.text == "ingress") is_ingress = true;
-    else if (word.text == "protocol") words.take_value("802.1Q or all");
-    else if (word.text == "pref" || word.text == "prio") filter.preference = words.take_number("a preference", 0, 65535).value;
-    else if (word.text == "chain") words.take_number("a chain", 0, 0xFFFF'FFFF);
-    else if (word.text == "flower") { read_flower(words, filter); break; }
-    else words.refuse(word, "a filter or key that is not understood", "dev, ingress, protocol, pref or flower");
-  }
-  if (words.failed()) return;
-  if (!is_ingress || device.empty()) words.refuse(start, "a filter that is not at the ingress of an interface", "\"dev IF ingress\"");
-  else machine.interface(device, device_place).filters.push_back(std::move(filter));
 }
 
 void read_set_mm(Words& words, Machine& machine) {
@@ -358,102 +246,131 @@ void read_set_mm(Words& words, Machine& machine) {
   if (!words.failed()) machine.interface(device.text, device.place).merge = merge;
 }
 
-void read_bridge(Words& words, const Word& start, Machine& machine) {
-  machine.has_bridge = true;
-  if (words.take_if("fdb") || words.take_if("mdb")) return;   // addresses follow from paths in takt
-  if (!words.take_if("vlan")) {
-    words.refuse(words.at_end() ? start : words.take(), "not what takt knows of a bridge", "vlan, fdb or mdb");
+/// ethtool -s IF speed 100: the rate of the port. The rest sets nothing that takt has.
+void read_ethtool(Words& words, const Word& start, Machine& machine) {
+  if (words.take_if("--set-mm")) return read_set_mm(words, machine);
+  if (words.take_if("-s") || words.take_if("--change")) {
+    const Word device = words.take_value("an interface");
+    while (!words.at_end() && !words.failed())
+      if (words.take().text == "speed") machine.interface(device.text, device.place).rate = static_cast<std::uint64_t>(words.take_number("Mbit/s", 1, 800'000).value) * 1'000'000;
     return;
   }
+  if (words.take_if("--set-frame-preemption")) {
+    machine.remarks.push_back({RemarkKind::lost, start.place, "ethtool --set-frame-preemption, which no released ethtool has: write --set-mm"});
+    return;
+  }
+  machine.remarks.push_back({RemarkKind::ignored, start.place, "ethtool" + (words.at_end() ? "" : " " + words.peek().text) + ": offloads, counters and rings have no model"});
+}
+
+void read_vlan(Words& words, const Word& start, Machine& machine) {
   const bool adds = words.is_next("add");
   std::string device;
   json::Place place = start.place;
-  bool untagged = false;
+  bool untagged = false, is_of_bridge = false;
+  if (words.is_next("show")) return;
   while (!words.at_end() && !words.failed()) {
     const Word& word = words.take();
     if (word.text == "dev") { const Word name = words.take_value("an interface"); device = name.text; place = name.place; }
-    else if (word.text == "vid") words.take_number("a VLAN from 1 to 4094", 1, 4094);
+    else if (word.text == "vid") words.take_value("a VLAN from 1 to 4094, or a range");
     else if (word.text == "untagged") untagged = true;
-    else if (word.text != "add" && word.text != "del" && word.text != "pvid" && word.text != "self" && word.text != "master") words.refuse(word, "not a key of bridge vlan", "add, del, dev, vid, pvid or untagged");
+    else if (word.text == "self") is_of_bridge = true;
+    else if (word.text != "add" && word.text != "del" && word.text != "pvid" && word.text != "master") words.refuse(word, "not a key of bridge vlan", "add, del, dev, vid, pvid or untagged");
   }
-  if (!words.failed() && adds) {
-    Interface& interface = machine.interface(device, place);
-    interface.untagged = interface.untagged || untagged;
+  if (words.failed() || !adds || is_of_bridge) return;
+  Interface& interface = machine.interface(device, place);
+  interface.untagged = interface.untagged || untagged;
+}
+
+void read_bridge(Words& words, const Word& start, Machine& machine) {
+  machine.has_bridge = true;
+  if (words.is_next("fdb") || words.is_next("mdb")) return;   // addresses follow from paths in takt
+  if (words.take_if("vlan")) return read_vlan(words, start, machine);
+  if (words.is_next("link") || words.is_next("monitor") || words.is_next("vni")) {
+    machine.remarks.push_back({RemarkKind::ignored, start.place, "bridge " + words.peek().text + ": spanning trees, learning and flooding follow from paths in takt"});
+    return;
+  }
+  words.refuse(words.at_end() ? start : words.take(), "not what takt knows of a bridge", "vlan, fdb, mdb or link");
+}
+
+void read_ip(const Command& command, Machine& machine) {
+  const auto has = [&](std::string_view text) { return std::ranges::any_of(command, [&](const Word& word) { return word.text == text; }); };
+  const bool is_of_link = command.size() > 1 && std::string_view("link").starts_with(command[1].text);
+  if (is_of_link && !has("show") && (has("bridge") || has("master"))) machine.has_bridge = true;
+  if (is_of_link || command.size() < 2) return;
+  machine.remarks.push_back({RemarkKind::ignored, command[0].place, "ip " + command[1].text + ": addresses, routes and namespaces follow from the scenario"});
+}
+
+/// Commands that set nothing of a network, which every script has.
+constexpr std::array common_commands = {"set", "echo", "printf", "sleep", "cd", "which", "type", "return", "unset", "trap", "wait", "cat", "grep", "id", "dmesg", "date", "break", "continue", "modprobe", "read", "}", "mount", "mkdir", "rm", "logger", "tput", "clear", "ulimit", "umask", "hash", "pwd", "ls", "head", "tail", "awk", "sed", "xargs", "sort", "uname"};
+
+/// A value that only a run can say: a base time is folded into the cycle anyhow. False if the command cannot be read without it.
+bool settle_unknown(Command& command, Machine& machine, json::Diagnostics& diagnostics) {
+  bool is_read = true;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i].unknown.empty()) continue;
+    if (i > 0 && command[i - 1].text == "base-time") {
+      machine.remarks.push_back({RemarkKind::lost, command[i].place, "the base time " + command[i].unknown + ", which only a run of the script can say: 0 is taken"});
+      command[i] = {"0", command[i].place, {}};
+      continue;
+    }
+    is_read = false;
+    diagnostics.error(command[i].place, "what only a run of the script can say", {json::quote(command[i].unknown), "a value that the script has, such as NAME=value before it"});
+  }
+  return is_read;
+}
+
+void read_command(Command command, Machine& machine, json::Diagnostics& diagnostics) {
+  const std::string name = command[0].text;
+  if (name == "qdisc" || name == "filter" || name == "class" || name == "actions") command.insert(command.begin(), Word{"tc", command[0].place, {}});   // a line of a batch
+  if (name == "fdb" || name == "mdb" || name == "vlan") command.insert(command.begin(), Word{"bridge", command[0].place, {}});
+  if (name == "link" && command.size() > 2) command.insert(command.begin(), Word{"ip", command[0].place, {}});
+  const std::string program = command[0].text;
+  const bool is_of_network = program == "tc" || program == "ethtool" || program == "bridge";
+  if (is_of_network && !settle_unknown(command, machine, diagnostics)) return;
+  while ((is_of_network && program != "ethtool") && command.size() > 1 && command[1].text.starts_with('-')) {
+    const bool has_value = command[1].text == "-n" || command[1].text == "-netns";
+    command.erase(command.begin() + 1, command.begin() + (has_value && command.size() > 2 ? 3 : 2));
+  }
+  Words words(command, diagnostics);
+  const Word start = words.take();
+  if (program == "tc") {
+    if (words.take_if("qdisc")) return read_qdisc(words, start, machine);
+    if (words.take_if("filter")) return read_filter(words, start, machine);
+    if (words.at_end() || words.is_next("class") || words.is_next("actions") || words.is_next("action") || words.is_next("chain") || words.is_next("monitor") || words.is_next("exec")) {
+      machine.remarks.push_back({RemarkKind::lost, start.place, "tc" + (words.at_end() ? "" : " " + words.peek().text) + ": classes and actions by themselves have no model"});
+      return;
+    }
+    words.refuse(words.take(), "not what takt knows of tc", "qdisc or filter");
+  } else if (program == "ethtool") {
+    read_ethtool(words, start, machine);
+  } else if (program == "bridge") {
+    read_bridge(words, start, machine);
+  } else if (program == "ip") {
+    read_ip(command, machine);
+  } else if (std::ranges::find(common_commands, program) == common_commands.end()) {
+    machine.remarks.push_back({RemarkKind::ignored, start.place, "the command " + json::quote(program) + ": only tc, ethtool, bridge and ip are read"});
   }
 }
 
-void read_command(const Command& command, Machine& machine, json::Diagnostics& diagnostics) {
-  Words words(command, diagnostics);
-  const Word& program = words.take();
-  if (program.text == "tc") {
-    if (words.take_if("qdisc")) return read_qdisc(words, program, machine);
-    if (words.take_if("filter")) return read_filter(words, program, machine);
-    words.refuse(words.at_end() ? program : words.take(), "not what takt knows of tc", "qdisc or filter");
-  } else if (program.text == "ethtool") {
-    if (words.take_if("--set-mm")) return read_set_mm(words, machine);
-    words.refuse(words.at_end() ? program : words.take(), "not what takt knows of ethtool", "--set-mm");
-  } else if (program.text == "bridge") {
-    read_bridge(words, program, machine);
-  } else if (program.text == "ip") {
-    if (!words.is_next("link")) words.refuse(words.at_end() ? program : words.take(), "not what takt knows of ip", "link");
-    for (const Word& word : command)
-      if (word.text == "bridge" || word.text == "master") machine.has_bridge = true;
-  } else if (program.text != "set") {
-    words.refuse(program, "a command that is not understood", "tc, ethtool, bridge or ip");
-  }
+/// A line that goes on the command before it, from which a backslash is missing, as those of taprio are long.
+bool goes_on(const Command& line) {
+  constexpr std::array keys = {"flags", "base-time", "cycle-time", "cycle-time-extension", "sched-entry", "clockid", "txtime-delay", "num_tc", "map", "queues", "fp", "max-sdu", "idleslope", "sendslope", "hicredit", "locredit", "offload"};
+  return std::ranges::find(keys, line[0].text) != keys.end();
 }
 
 }  // namespace
 
-std::vector<Command> commands_of(std::string_view text, const std::string& file, json::Diagnostics& diagnostics) {
+void read_script(std::string_view text, const std::string& file, Machine& machine, json::Diagnostics& diagnostics) {
   std::vector<Command> commands;
-  Command command;
-  Word word;
-  bool in_comment = false;
-  std::uint32_t line = 1, column = 1;
-  const auto end_word = [&] {
-    if (!word.text.empty()) command.push_back(std::move(word));
-    word = {};
-  };
-  const auto end_command = [&] {
-    end_word();
-    if (!command.empty()) commands.push_back(std::move(command));
-    command = {};
-  };
-  for (std::size_t i = 0; i < text.size(); ++i, ++column) {
-    const char c = text[i];
-    if (c == '\n') {
-      in_comment = false;
-      end_command();
-      ++line;
-      column = 0;
-    } else if (in_comment) {
-      continue;
-    } else if (c == '\\' && i + 1 < text.size() && text[i + 1] == '\n') {
-      end_word();
-      ++i;
-      ++line;
-      column = 0;
-    } else if (c == ' ' || c == '\t' || c == '\r') {
-      end_word();
-    } else if (c == '#' && word.text.empty()) {
-      in_comment = true;
-    } else if (std::string_view("$`|;&<>(){}*?\"'\\").find(c) != std::string_view::npos || static_cast<unsigned char>(c) < 0x20) {
-      diagnostics.error({file, line, column, ""}, "what only a shell can work out", {json::quote(std::string_view(&text[i], 1)), "commands with plain words"});
-      in_comment = true;   // the rest of the line is a consequence
-      command.clear();
-      word = {};
+  for (Command& command : commands_of(text, file, machine.remarks, diagnostics)) {
+    if (!commands.empty() && goes_on(command)) {
+      machine.remarks.push_back({RemarkKind::odd, command[0].place, "a line without a command, taken as the end of the one before it: the backslash is missing there"});
+      std::ranges::move(command, std::back_inserter(commands.back()));
     } else {
-      if (word.text.empty()) word.place = {file, line, column, ""};
-      word.text += c;
+      commands.push_back(std::move(command));
     }
   }
-  end_command();
-  return commands;
-}
-
-void read_script(std::string_view text, const std::string& file, Machine& machine, json::Diagnostics& diagnostics) {
-  for (const Command& command : commands_of(text, file, diagnostics)) read_command(command, machine, diagnostics);
+  for (Command& command : commands) read_command(std::move(command), machine, diagnostics);
 }
 
 }  // namespace takt::interchange::linux_tc

@@ -22,6 +22,7 @@ constexpr std::uint32_t around_frame = static_cast<std::uint32_t>((models::pream
 constexpr std::uint32_t tagged_header = static_cast<std::uint32_t>((models::mac_header + models::vlan_tag + models::frame_check_sequence).count);
 constexpr std::uint32_t shortest_frame = static_cast<std::uint32_t>(models::minimum_frame.count);
 constexpr std::uint32_t longest_frame = tagged_header + static_cast<std::uint32_t>(models::maximum_msdu.count);
+constexpr std::uint32_t longest_jumbo = tagged_header + 9000;   // the greatest mtu
 constexpr Ps usual_duration = 100'000'000'000;            // 100 ms
 constexpr Ps longest_duration = 86'400'000'000'000'000;   // a day
 
@@ -212,7 +213,10 @@ class ScenarioMaker {
     if (from_.solution != nullptr) place(s, stream);
     if (from_.plans_gates) {
       if (from.release != 0) remark(RemarkKind::lost, "release", places_.streams[s], "that streams with a release, such as " + json::quote(from.name) + ", may be sent later: an offset that is given is kept");
-      else stream.offset.emplace().is_auto = true;
+      else if (stream.burst) {
+        remark(RemarkKind::lost, "train", places_.streams[s], "that streams in several frames, such as " + json::quote(from.name) + ", may be sent later: takt chooses the offsets of single frames");
+        stream.offset = json::OrAuto<Duration>(Duration());
+      } else stream.offset.emplace().is_auto = true;
     }
     require(from, stream);
     made_.streams.push_back(std::move(stream));
@@ -236,7 +240,12 @@ class ScenarioMaker {
     }
     stream.encapsulation = scenario::Encapsulation::ethernet;
     stream.pcp = priority;
-    const std::uint32_t pieces = (wire + longest_frame + around_frame - 1) / (longest_frame + around_frame);
+    const bool is_jumbo = wire > longest_frame + around_frame && wire <= longest_jumbo + around_frame;
+    const std::uint32_t pieces = is_jumbo ? 1 : (wire + longest_frame + around_frame - 1) / (longest_frame + around_frame);
+    if (is_jumbo) {
+      made_.network.mtu = std::max(made_.network.mtu, sim::Octets{wire - around_frame - tagged_header});
+      remark(RemarkKind::changed, "jumbo", places_.streams[s], fmt::format("frames longer than Ethernet's ({} octets on the wire at {}): the network takes them, by its mtu", wire, json::quote(from.name)));
+    }
     if (pieces > 1) remark(RemarkKind::lost, "long", places_.streams[s], fmt::format("frames longer than Ethernet's ({} octets on the wire at {}): takt sends them in pieces that are stored one by one", wire, json::quote(from.name)));
     frames *= std::max(pieces, 1u);
     const std::uint32_t each = (wire + pieces - 1) / std::max(pieces, 1u);

@@ -295,7 +295,7 @@ Limits read_limits(const std::string& files, std::string& mistake) {
     file.name = std::string(rest.substr(0, comma));
     rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
     const std::string base = std::filesystem::path(file.name).filename().string();
-    file.device = base.substr(0, base.find('.'));
+    file.device = device_of_file(base);
     std::ifstream stream(file.name, std::ios::binary);
     if (!stream) {
       mistake = "setting limits: " + file.name + " cannot be read";
@@ -341,12 +341,12 @@ Exported export_yang(const ExportRequest& request) {
   for (const scenario::ScriptEntry& entry : request.resolved.scenario.script)
     if (entry.set_gates) exported.lose("script", "gate lists that are set during the run");
   const bool is_xml = request.settings["encoding"] == "xml";
-  for (const Device& device : devices_of(request.resolved)) {
+  for (const Device& device : devices_of(request.resolved, request.interfaces)) {
     if (!request.concerns(device.node)) continue;
     const yang::Data data = yang::NodeWriter(request, device, limits, exported).write();
     exported.files.push_back({device.name + (is_xml ? ".xml" : ".json"), is_xml ? yang::to_xml(data) : yang::to_json(data)});
   }
-  exported.files.push_back({std::string(names_file), names_table(request.resolved)});
+  exported.files.push_back({std::string(names_file), names_table(request.resolved, request.interfaces)});
   return exported;
 }
 

@@ -329,7 +329,7 @@ Imported import_yang(const ImportRequest& request, json::Diagnostics& diagnostic
     yang::read_policing(data, names, request.base != nullptr, *device, imported, diagnostics);
   }
   if (diagnostics.has_errors()) return imported;
-  build_scenario(std::move(devices), request, imported, diagnostics);
+  build_scenario(std::move(devices), request, names, imported, diagnostics);
   if (!imported.scenario) return imported;
   yang::DeviceData tables;
   for (const auto& [file, data] : read) tables.emplace_back(file->device, &data);

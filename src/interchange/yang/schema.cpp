@@ -119,10 +119,10 @@ constexpr Schema bridge_port[] = {
     node(cbsa_bridge_m, "cbsa", slopes),
     node(preempt_bridge_m, "frame-preemption-parameters", preemption),
     node(sched_bridge_m, "gate-parameter-table", gate_table),
-    state(dot1q_m, "bridge-name"), state(dot1q_m, "component-name"), state(dot1q_m, "port-type"), state(dot1q_m, "pvid"), state(dot1q_m, "default-priority"), state(dot1q_m, "capabilities"),
-    state(dot1q_m, "type-capabilties"), state(dot1q_m, "external"), state(dot1q_m, "oper-point-to-point"), state(dot1q_m, "statistics"), state(dot1q_m, "priority-regeneration"),
-    state(dot1q_m, "port-number"), state(dot1q_m, "address"), state(dot1q_m, "pcp-selection"), state(dot1q_m, "pcp-decoding-table"), state(dot1q_m, "pcp-encoding-table"), state(dot1q_m, "use-dei"),
-    state(dot1q_m, "acceptable-frame"), state(dot1q_m, "enable-ingress-filtering"), state(dot1q_m, "drop-encoding"), state(dot1q_m, "service-access-priority-selection"),
+    state(dot1q_m, "bridge-name"), state(dot1q_m, "component-name"), state(dot1q_m, "port-type"), unheard(dot1q_m, "pvid"), unheard(dot1q_m, "default-priority"), state(dot1q_m, "capabilities"),
+    state(dot1q_m, "type-capabilties"), state(dot1q_m, "external"), state(dot1q_m, "oper-point-to-point"), state(dot1q_m, "statistics"), unheard(dot1q_m, "priority-regeneration"),
+    state(dot1q_m, "port-number"), state(dot1q_m, "address"), unheard(dot1q_m, "pcp-selection"), unheard(dot1q_m, "pcp-decoding-table"), unheard(dot1q_m, "pcp-encoding-table"), unheard(dot1q_m, "use-dei"),
+    unheard(dot1q_m, "acceptable-frame"), unheard(dot1q_m, "enable-ingress-filtering"), unheard(dot1q_m, "drop-encoding"), unheard(dot1q_m, "service-access-priority-selection"),
     state(dot1q_m, "media-dependent-overhead"), state(ats_bridge_m, "discarded-frames-count"),
 };
 constexpr Schema merge_control[] = {one_of(mac_merge_m, "merge-enable-tx", "enabled|disabled"), one_of(mac_merge_m, "verify-disable-tx", "enabled|disabled"), leaf(mac_merge_m, "verify-time", uint16, false, 1, 128),
@@ -152,8 +152,8 @@ constexpr Schema preemption_of_2018[] = {entries(preempt_m, "frame-preemption-st
 constexpr Schema available_2018[] = {leaf(dot1q_m, "num-traffic-class", uint8, true, 1, 8), leaf(dot1q_m, "traffic-class", uint8, false, 0, 7)};
 constexpr Schema class_map_2018[] = {leaf(dot1q_m, "priority", uint8, true, 0, 7), entries(dot1q_m, "available-traffic-class", "num-traffic-class", available_2018)};
 constexpr Schema class_maps_2018[] = {entries(dot1q_m, "traffic-class-map", "priority", class_map_2018)};
-constexpr Schema bridge_port_2018[] = {node(dot1q_m, "traffic-class", class_maps_2018), state(dot1q_m, "bridge-name"), state(dot1q_m, "component-name"), state(dot1q_m, "port-type"), state(dot1q_m, "pvid"),
-                                       state(dot1q_m, "default-priority"), state(dot1q_m, "priority-regeneration"), state(dot1q_m, "acceptable-frame"), state(dot1q_m, "enable-ingress-filtering"), state(dot1q_m, "statistics")};
+constexpr Schema bridge_port_2018[] = {node(dot1q_m, "traffic-class", class_maps_2018), state(dot1q_m, "bridge-name"), state(dot1q_m, "component-name"), state(dot1q_m, "port-type"), unheard(dot1q_m, "pvid"),
+                                       unheard(dot1q_m, "default-priority"), unheard(dot1q_m, "priority-regeneration"), unheard(dot1q_m, "acceptable-frame"), unheard(dot1q_m, "enable-ingress-filtering"), state(dot1q_m, "statistics")};
 constexpr Schema interface_published[] = {
     leaf(if_m, "name", text, true), identity_of(if_m, "type", {}), state(if_m, "enabled"), state(if_m, "description"), state(if_m, "admin-status"), state(if_m, "oper-status"), state(if_m, "if-index"),
     leaf(if_m, "speed", uint64), state(if_m, "statistics"), state(if_m, "phys-address"), state(if_m, "last-change"), state(if_m, "link-up-down-trap-enable"),
@@ -218,7 +218,7 @@ constexpr Schema ats_gates[] = {entries(ats_bridge_m, "stream-gate-instance-tabl
 
 constexpr Schema component_published[] = {
     leaf(dot1q_m, "name", text, true), identity_of(dot1q_m, "type", {}), state(dot1q_m, "id"), state(dot1q_m, "address"), state(dot1q_m, "traffic-class-enabled"), state(dot1q_m, "ports"), state(dot1q_m, "bridge-port"),
-    state(dot1q_m, "capabilities"), state(dot1q_m, "filtering-database"), state(dot1q_m, "permanent-database"), state(dot1q_m, "bridge-vlan"), state(dot1q_m, "bridge-mst"),
+    state(dot1q_m, "capabilities"), unheard(dot1q_m, "filtering-database"), unheard(dot1q_m, "permanent-database"), unheard(dot1q_m, "bridge-vlan"), unheard(dot1q_m, "bridge-mst"),
     node(psfp_bridge_m, "flow-meters", meters<psfp_bridge_m>), node(psfp_bridge_m, "stream-gates", stream_gates), node(psfp_bridge_m, "stream-filters", stream_filters),
     node(ats_bridge_m, "stream-gates", ats_gates), node(ats_bridge_m, "stream-filters", ats_filters),
 };
@@ -251,7 +251,7 @@ constexpr Schema identity_2017[] = {
 constexpr Schema streams_2017[] = {entries(stream_id_2017_m, "stream-identity-table", "index", identity_2017)};
 constexpr Schema component_of_2018[] = {
     leaf(dot1q_m, "name", text, true), identity_of(dot1q_m, "type", {}), state(dot1q_m, "id"), state(dot1q_m, "address"), state(dot1q_m, "traffic-class-enabled"), state(dot1q_m, "ports"), state(dot1q_m, "bridge-port"),
-    state(dot1q_m, "capabilities"), state(dot1q_m, "filtering-database"), state(dot1q_m, "permanent-database"), state(dot1q_m, "bridge-vlan"), state(dot1q_m, "bridge-mst"),
+    state(dot1q_m, "capabilities"), unheard(dot1q_m, "filtering-database"), unheard(dot1q_m, "permanent-database"), unheard(dot1q_m, "bridge-vlan"), unheard(dot1q_m, "bridge-mst"),
     node(psfp_m, "flow-meters", meters<psfp_m>), node(sfsg_m, "stream-gates", stream_gates_2018), node(sfsg_m, "stream-filters", stream_filters_2018), node(stream_id_2017_m, "streams", streams_2017),
 };
 constexpr Schema bridge_published[] = {leaf(dot1q_m, "name", text, true), leaf(dot1q_m, "address", mac, true), identity_of(dot1q_m, "bridge-type", {}), state(dot1q_m, "ports"), state(dot1q_m, "up-time"), state(dot1q_m, "components"),

@@ -30,9 +30,11 @@ struct ImportOptions {
 std::string import_formats_help() {
   std::string text;
   for (const interchange::ImportFormat& format : interchange::import_formats()) {
-    text += fmt::format("  {:<10} {}\n             files: {}{}\n", format.name, format.help, format.files, format.into_base ? "; --into" : "");
+    text += fmt::format("  {:<10} {}\n             files: {}{}\n", format.name, format.help, format.files,
+                        format.into_base ? "; --into" : "");
     for (const interchange::SettingInfo& setting : format.settings)
-      text += fmt::format("             -o {}={}{}: {}\n", setting.key, setting.values, setting.fallback.empty() ? "" : fmt::format(" ({})", setting.fallback), setting.help);
+      text += fmt::format("             -o {}={}{}: {}\n", setting.key, setting.values,
+                          setting.fallback.empty() ? "" : fmt::format(" ({})", setting.fallback), setting.help);
   }
   return text;
 }
@@ -61,7 +63,8 @@ interchange::InputFile read_input(const std::string& argument, json::Diagnostics
     file.text.append(piece, 0, static_cast<std::size_t>(stream.gcount()));
   }
   file.text.shrink_to_fit();
-  if (file.text.size() > interchange::max_input_octets) diagnostics.error({file.name, 0, 0, ""}, "too large", {"more than 64 MiB", "at most 64 MiB"});
+  if (file.text.size() > interchange::max_input_octets)
+    diagnostics.error({file.name, 0, 0, ""}, "too large", {"more than 64 MiB", "at most 64 MiB"});
   return file;
 }
 
@@ -82,13 +85,16 @@ json::Diagnostics placed_in_files(const json::Diagnostics& diagnostics, const in
 }
 
 /// What was made is a scenario like any other: what it says must go together.
-bool is_sound_scenario(const std::string& text, const std::string& name, const interchange::Imported& imported, std::size_t files) {
+bool is_sound_scenario(const std::string& text, const std::string& name, const interchange::Imported& imported,
+                       std::size_t files) {
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, name, {}, diagnostics);
   if (resolved) return true;
   json::Diagnostics placed = placed_in_files(diagnostics, imported);
   std::fputs(placed.to_text().c_str(), stderr);
-  std::fprintf(stderr, "takt: what the %s is no sound scenario (above, by the lines of the files, or where it would stand)\n", files == 1 ? "file says" : "files say");
+  std::fprintf(stderr,
+               "takt: what the %s is no sound scenario (above, by the lines of the files, or where it would stand)\n",
+               files == 1 ? "file says" : "files say");
   return false;
 }
 
@@ -96,7 +102,8 @@ ExitStatus run_import(const ImportOptions& options) {
   const interchange::ImportFormat& format = *interchange::find_import_format(options.format);
   std::string mistake;
   const auto settings = interchange::Settings::read(options.settings, format.settings, mistake);
-  if (settings && !format.into_base && !options.into.empty()) mistake = "--into: this format brings a network of its own";
+  if (settings && !format.into_base && !options.into.empty())
+    mistake = "--into: this format brings a network of its own";
   if (!mistake.empty()) {
     std::fprintf(stderr, "takt: %s\n", mistake.c_str());
     return ExitStatus::bad_input;
@@ -115,16 +122,23 @@ ExitStatus run_import(const ImportOptions& options) {
   if (!diagnostics.has_errors()) imported = format.read({files, base ? &*base : nullptr, *settings}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
   if (diagnostics.has_errors() || !imported.scenario) return ExitStatus::bad_input;
-  for (const interchange::Remark& remark : imported.remarks) std::fprintf(stderr, "%s\n", interchange::to_text(remark).c_str());
+  for (const interchange::Remark& remark : imported.remarks)
+    std::fprintf(stderr, "%s\n", interchange::to_text(remark).c_str());
   const std::string text = interchange::sparse_text(*imported.scenario);
-  if (!is_sound_scenario(text, options.out.empty() ? "scenario.json" : options.out, imported, files.size())) return ExitStatus::bad_input;
+  if (!is_sound_scenario(text, options.out.empty() ? "scenario.json" : options.out, imported, files.size()))
+    return ExitStatus::bad_input;
   if (options.out.empty()) {
-    if (!imported.interfaces.empty()) std::fprintf(stderr, "takt: the names of interfaces are not kept on standard output; --out FILE.json writes them into FILE.names.json\n");
+    if (!imported.interfaces.empty())
+      std::fprintf(stderr,
+                   "takt: the names of interfaces are not kept on standard output; --out FILE.json writes them into "
+                   "FILE.names.json\n");
     std::fputs(text.c_str(), stdout);
     return ExitStatus::pass;
   }
   std::string problem = output::write_file(options.out, text);
-  if (problem.empty() && !imported.interfaces.empty()) problem = output::write_file(interchange::names_file_of(options.out), interchange::interfaces_table(imported.interfaces));
+  if (problem.empty() && !imported.interfaces.empty())
+    problem =
+        output::write_file(interchange::names_file_of(options.out), interchange::interfaces_table(imported.interfaces));
   if (problem.empty()) return ExitStatus::pass;
   std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
   return ExitStatus::internal_error;
@@ -138,16 +152,24 @@ void add_import_command(Command app, ExitStatus& status) {
   std::vector<std::string> names;
   for (const interchange::ImportFormat& format : interchange::import_formats()) names.emplace_back(format.name);
   command.add_option("FORMAT", options->format, "What the files are (below)").required().one_of(names);
-  command.add_option("FILES", options->files, "The files, as NODE=FILE where a file is not called after its node").required();
+  command.add_option("FILES", options->files, "The files, as NODE=FILE where a file is not called after its node")
+      .required();
   command.add_option("--out", options->out, "The scenario file to write; standard output if absent").type_name("FILE");
-  command.add_option("--into", options->into, "A scenario with the network that the devices are in, and all that the files do not say").type_name("SCENARIO");
-  command.add_option("-o", options->settings, "A setting of the format (repeatable)").type_name("KEY=VALUE").one_value_each();
+  command
+      .add_option("--into", options->into,
+                  "A scenario with the network that the devices are in, and all that the files do not say")
+      .type_name("SCENARIO");
+  command.add_option("-o", options->settings, "A setting of the format (repeatable)")
+      .type_name("KEY=VALUE")
+      .one_value_each();
   command.footer(
       "Formats:\n" + import_formats_help() +
       "What was changed on the way, is lost or has no meaning in takt is told on standard error, with its place.\n"
       "Examples:\n"
-      "  takt import linux sw1.sh sw2.sh --into plant.json --out plant-as-set.json    gates and shapers of two switches\n"
-      "  takt import linux sw1.qdisc.json sw1.link.json --out sw1.json                one machine, with a host at each port\n"
+      "  takt import linux sw1.sh sw2.sh --into plant.json --out plant-as-set.json    gates and shapers of two "
+      "switches\n"
+      "  takt import linux sw1.qdisc.json sw1.link.json --out sw1.json                one machine, with a host at each "
+      "port\n"
       "Exit status: 0 written, 2 mistakes (all of them are listed; nothing was written).");
   command.callback([options, &status] { status = run_import(*options); });
 }

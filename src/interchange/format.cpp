@@ -39,7 +39,7 @@ const std::array exports{
 };
 
 const std::array imports{
-    ImportFormat{"linux", "what Linux machines are set to", "NODE.sh, NODE.batch, NODE.trace (commands), NODE.*.json (of `tc -j qdisc show`, `ip -j -d link show`, `bridge -j vlan, fdb, mdb show`), NODE.*.conf (ptp4l); *.names.json of an export",
+    ImportFormat{"linux", "what Linux machines are set to", "NODE.sh, .batch, .trace (commands), .json (of `tc -j`, `ip -j -d`, `bridge -j`), .conf (ptp4l); *.names.json of an export",
                  linux_import_settings, true, false, import_linux},
     ImportFormat{"yang", "instance data of devices: the published modules and those of 2018", "NODE.json, NODE.xml; *.names.json of an export", {}, true, false, import_yang},
     ImportFormat{"lldp", "the topology that LLDP daemons see", "NODE.*.json, NODE.*.json0 (of `lldpcli -f json show neighbors details` and `show chassis` on each machine)", {}, false, false, import_lldp},
@@ -52,7 +52,7 @@ const std::array imports{
     ImportFormat{"tsnsched", "an input of TSNsched", "one .json", planning_import_settings, false, false, import_tsnsched},
     ImportFormat{"ecrts", "the industrial challenge of ECRTS'25", "one .txt", planning_import_settings, false, false, import_ecrts},
     ImportFormat{"applications", "a network as GraphML with applications (TT and AVB) as XML", "NETWORK.graphml and APPLICATIONS.xml", applications_import_settings, false, false, import_applications},
-    ImportFormat{"csv", "tables of cables, devices, streams and Programs", "*.csv with a header: from, to, rate, length, ports; name, kind, ...; name, from, to, payload, every, offset, jitter, pcp, vlan, encapsulation, latency; name, master, slaves, cycle", {}, true, false, import_csv},
+    ImportFormat{"csv", "tables of cables, devices, streams and Programs", "*.csv, each with a header: of cables, devices, streams or Programs", {}, true, false, import_csv},
     ImportFormat{"pcap", "the talkers of a running plant, by what a capture holds: period, jitter, sizes", "captures of Ethernet (pcap, pcapng); *.names.json of an export", {}, true, true, import_pcap},
 };
 

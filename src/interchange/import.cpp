@@ -14,9 +14,9 @@ Node encoded(const auto& value) { return json::encode_value(value); }
 
 /// The members with defaults of what stands under a key, whatever it stands in.
 struct Default {
-  std::string_view key;     ///< of a list, or of an object whose members are such values, or of the value itself
+  std::string_view key;  ///< of a list, or of an object whose members are such values, or of the value itself
   Node value;
-  std::string_view keep = {};   ///< is written even if it is as in a value without content
+  std::string_view keep = {};  ///< is written even if it is as in a value without content
 };
 
 const std::vector<Default>& defaults() {
@@ -71,7 +71,11 @@ void simplify_members(Node& object, std::string_view key) {
   for (json::Member& member : object.members) {
     if (key == "nodes" && member.value.find("kind") != nullptr) {
       const std::string kind = member.value.find("kind")->text;
-      drop(member.value, kind == "host" ? host_defaults() : kind == "switch" ? switch_defaults() : station_defaults(), "kind");
+      drop(member.value,
+           kind == "host"     ? host_defaults()
+           : kind == "switch" ? switch_defaults()
+                              : station_defaults(),
+           "kind");
       simplify_members(member.value, "node");
     } else {
       simplify(member.value, member.key);
@@ -88,7 +92,8 @@ void simplify(Node& node, std::string_view key) {
     if (found != defaults().end()) drop(node, found->value, found->keep);
     // An entry of a gate list, of either kind.
     if (key == "entries")
-      if (const Node* const mac = node.find("mac"); mac != nullptr && mac->text == "none") std::erase_if(node.members, [](const json::Member& member) { return member.key == "mac"; });
+      if (const Node* const mac = node.find("mac"); mac != nullptr && mac->text == "none")
+        std::erase_if(node.members, [](const json::Member& member) { return member.key == "mac"; });
   }
 }
 
@@ -109,12 +114,15 @@ std::string device_of_file(std::string_view name) {
   return std::string(name.substr(0, is_address ? at : name.find('.')));
 }
 
-void Imported::remark(RemarkKind kind, json::Place place, std::string text) { remarks.push_back({kind, std::move(place), std::move(text)}); }
+void Imported::remark(RemarkKind kind, json::Place place, std::string text) {
+  remarks.push_back({kind, std::move(place), std::move(text)});
+}
 
 std::string to_text(const Remark& remark) {
   constexpr std::string_view words[] = {"changed", "lost", "ignored", "odd"};
   std::string text = remark.place.file;
-  if (remark.place.line != 0) text += ":" + std::to_string(remark.place.line) + ":" + std::to_string(remark.place.column);
+  if (remark.place.line != 0)
+    text += ":" + std::to_string(remark.place.line) + ":" + std::to_string(remark.place.column);
   return json::printable(text + ": " + std::string(words[static_cast<std::size_t>(remark.kind)]) + ": " + remark.text);
 }
 
@@ -125,7 +133,8 @@ std::string sparse_text(const scenario::Scenario& scenario) {
   nothing.name = scenario.name;
   nothing.duration = scenario.duration;
   Node usual = encoded(nothing);
-  for (const char* const key : {"name", "duration"}) std::erase_if(usual.members, [&](const json::Member& member) { return member.key == key; });
+  for (const char* const key : {"name", "duration"})
+    std::erase_if(usual.members, [&](const json::Member& member) { return member.key == key; });
   drop(node, usual);
   return json::pretty(node);
 }

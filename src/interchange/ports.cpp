@@ -19,7 +19,8 @@ void rename_ports(Device& device, const InterfaceNames& interfaces) {
   if (found == interfaces.end()) return;
   std::vector<std::pair<std::string, std::string>> left = found->second;
   for (DevicePort& port : device.ports) {
-    const auto name = std::ranges::find(left, port.peer_name, [](const auto& each) -> const std::string& { return each.second; });
+    const auto name =
+        std::ranges::find(left, port.peer_name, [](const auto& each) -> const std::string& { return each.second; });
     if (name == left.end()) continue;
     port.interface = name->first;
     left.erase(name);
@@ -39,7 +40,8 @@ std::vector<Device> devices_of(const scenario::Resolved& resolved, const Interfa
   for (const models::LinkPlan& link : resolved.plan.links) {
     for (const auto& [end, peer] : {std::pair(&link.a, &link.b), std::pair(&link.b, &link.a)}) {
       Device& device = devices[end->node.value];
-      device.ports.push_back({end->port, interface_name(device.kind != models::NodeKind::host, end->port), peer->node.value, resolved.plan.nodes[peer->node.value].name, link.rate,
+      device.ports.push_back({end->port, interface_name(device.kind != models::NodeKind::host, end->port),
+                              peer->node.value, resolved.plan.nodes[peer->node.value].name, link.rate,
                               &scenario::port_config_of(resolved.plan, *end)});
     }
   }
@@ -50,7 +52,9 @@ std::vector<Device> devices_of(const scenario::Resolved& resolved, const Interfa
   return devices;
 }
 
-std::string interface_name(bool forwards, std::uint16_t port) { return (forwards ? "swp" : "eth") + std::to_string(port); }
+std::string interface_name(bool forwards, std::uint16_t port) {
+  return (forwards ? "swp" : "eth") + std::to_string(port);
+}
 
 std::optional<std::uint16_t> port_of_interface(std::string_view name) {
   std::size_t first = name.size();
@@ -92,7 +96,8 @@ std::vector<std::string> requirements_at(const scenario::Resolved& resolved, std
   return texts;
 }
 
-std::array<ClassUse, models::traffic_class_count> use_of_port(const scenario::Resolved& resolved, std::uint32_t node, std::uint16_t port) {
+std::array<ClassUse, models::traffic_class_count> use_of_port(const scenario::Resolved& resolved, std::uint32_t node,
+                                                              std::uint16_t port) {
   std::array<ClassUse, models::traffic_class_count> use;
   for (const scenario::StreamAtPort& stream : scenario::streams_at_ports(resolved)) {
     if (stream.node != node || stream.port != port) continue;
@@ -108,7 +113,8 @@ std::array<ClassUse, models::traffic_class_count> use_of_port(const scenario::Re
 
 std::string mac_text(models::MacAddress address, char between) {
   std::string text;
-  for (const std::byte octet : address.octets()) text += fmt::format("{}{:02x}", text.empty() ? "" : std::string(1, between), static_cast<unsigned>(octet));
+  for (const std::byte octet : address.octets())
+    text += fmt::format("{}{:02x}", text.empty() ? "" : std::string(1, between), static_cast<unsigned>(octet));
   return text;
 }
 

@@ -11,12 +11,18 @@ namespace {
 
 /// The code point of one whole character.
 unsigned code_point(std::string_view character) {
-  const auto octet = [character](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(character[i])); };
+  const auto octet = [character](std::size_t i) {
+    return static_cast<unsigned>(static_cast<unsigned char>(character[i]));
+  };
   switch (character.size()) {
-    case 1: return octet(0);
-    case 2: return (octet(0) & 0x1FU) << 6U | (octet(1) & 0x3FU);
-    case 3: return (octet(0) & 0x0FU) << 12U | (octet(1) & 0x3FU) << 6U | (octet(2) & 0x3FU);
-    default: return (octet(0) & 0x07U) << 18U | (octet(1) & 0x3FU) << 12U | (octet(2) & 0x3FU) << 6U | (octet(3) & 0x3FU);
+    case 1:
+      return octet(0);
+    case 2:
+      return (octet(0) & 0x1FU) << 6U | (octet(1) & 0x3FU);
+    case 3:
+      return (octet(0) & 0x0FU) << 12U | (octet(1) & 0x3FU) << 6U | (octet(2) & 0x3FU);
+    default:
+      return (octet(0) & 0x07U) << 18U | (octet(1) & 0x3FU) << 12U | (octet(2) & 0x3FU) << 6U | (octet(3) & 0x3FU);
   }
 }
 
@@ -37,8 +43,10 @@ std::string shown(std::string_view text, Keep keep) {
       continue;
     }
     const unsigned point = code_point(text.substr(0, length));
-    if (is_control(point) && !keep(point)) result += fmt::format("\\u{:04x}", point);
-    else result += text.substr(0, length);
+    if (is_control(point) && !keep(point))
+      result += fmt::format("\\u{:04x}", point);
+    else
+      result += text.substr(0, length);
     text.remove_prefix(length);
   }
   return result;
@@ -76,15 +84,18 @@ std::string file_name(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     const bool leads = i == 0 && (c == '.' || c == '-' || c == '~');
-    if (leads || static_cast<unsigned char>(c) < 0x20 || c == 0x7F || refused.find(c) != std::string_view::npos) name += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    else name += c;
+    if (leads || static_cast<unsigned char>(c) < 0x20 || c == 0x7F || refused.find(c) != std::string_view::npos)
+      name += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    else
+      name += c;
   }
   return name;
 }
 
 std::string shell_word(std::string_view text) {
   const bool is_plain = !text.empty() && std::ranges::all_of(text, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("_-./:@+,=").find(c) != std::string_view::npos;
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./:@+,=").find(c) != std::string_view::npos;
   });
   if (is_plain) return std::string(text);
   std::string quoted = "'";

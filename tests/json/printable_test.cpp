@@ -8,9 +8,13 @@ namespace {
 TEST(Printable, ShowsWhatATerminalWouldActOn) {
   EXPECT_EQ(printable("a\x1b[8mb"), "a\\u001b[8mb");
   EXPECT_EQ(printable("cam\ntouch x #"), "cam\\u000atouch x #");
-  EXPECT_EQ(printable("a\x7f\xc2\x9b" "31m"), "a\\u007f\\u009b31m");           // DEL, and CSI as one character
-  EXPECT_EQ(printable("pass\xe2\x80\xae" "liaf"), "pass\\u202eliaf");           // from right to left
-  EXPECT_EQ(printable("a\xff"), "a\\xff");                                      // no UTF-8
+  EXPECT_EQ(printable("a\x7f\xc2\x9b"
+                      "31m"),
+            "a\\u007f\\u009b31m");  // DEL, and CSI as one character
+  EXPECT_EQ(printable("pass\xe2\x80\xae"
+                      "liaf"),
+            "pass\\u202eliaf");             // from right to left
+  EXPECT_EQ(printable("a\xff"), "a\\xff");  // no UTF-8
   EXPECT_EQ(printable("F\xc3\xb6rderband"), "F\xc3\xb6rderband");
 }
 

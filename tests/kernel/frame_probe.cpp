@@ -1,7 +1,8 @@
 // Sends tagged frames, and says which came and when: the two ends of tests in a kernel (kernel_test.py).
 //
-//   frame_probe send INTERFACE VLAN PRIORITY COUNT GAP_US    frames of 60 octets to 03:00:5e:00:00:77, with SO_PRIORITY and that tag
-//   frame_probe hear INTERFACE SECONDS                       a line for each: priority, VLAN and the time of CLOCK_TAI in ns
+//   frame_probe send INTERFACE VLAN PRIORITY COUNT GAP_US    frames of 60 octets to 03:00:5e:00:00:77, with SO_PRIORITY
+//   and that tag frame_probe hear INTERFACE SECONDS                       a line for each: priority, VLAN and the time
+//   of CLOCK_TAI in ns
 #include <arpa/inet.h>
 #include <linux/if_packet.h>
 #include <net/ethernet.h>
@@ -19,7 +20,7 @@
 
 namespace {
 
-constexpr std::uint16_t own_ether_type = 0x88B5;   // for local experiments
+constexpr std::uint16_t own_ether_type = 0x88B5;  // for local experiments
 
 std::int64_t tai_ns() {
   timespec now{};
@@ -79,7 +80,7 @@ int hear_frames(char** arguments) {
     const ssize_t length = recvmsg(handle, &message, 0);
     if (length < 18) continue;
     const std::int64_t now = tai_ns();
-    int tag = -1;   // the kernel takes the tag off and says it beside the frame
+    int tag = -1;  // the kernel takes the tag off and says it beside the frame
     for (cmsghdr* each = CMSG_FIRSTHDR(&message); each != nullptr; each = CMSG_NXTHDR(&message, each)) {
       if (each->cmsg_level != SOL_PACKET || each->cmsg_type != PACKET_AUXDATA) continue;
       tpacket_auxdata aux{};
@@ -92,7 +93,8 @@ int hear_frames(char** arguments) {
       type_at = 16;
     }
     if ((octets[type_at] << 8 | octets[type_at + 1]) != own_ether_type) continue;
-    std::printf("heard %d %d %lld\n", tag < 0 ? -1 : tag >> 13, tag < 0 ? -1 : tag & 0xFFF, static_cast<long long>(now));
+    std::printf("heard %d %d %lld\n", tag < 0 ? -1 : tag >> 13, tag < 0 ? -1 : tag & 0xFFF,
+                static_cast<long long>(now));
     std::fflush(stdout);
   }
   return 0;

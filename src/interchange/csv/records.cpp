@@ -7,11 +7,14 @@
 namespace takt::interchange::csv {
 namespace {
 
-bool has_column(const Table& table, std::string_view name) { return std::ranges::find(table.header, name, &Cell::text) != table.header.end(); }
+bool has_column(const Table& table, std::string_view name) {
+  return std::ranges::find(table.header, name, &Cell::text) != table.header.end();
+}
 
 bool is_json_number(std::string_view text) {
   const std::string_view digits = text.starts_with('-') ? text.substr(1) : text;
-  return !digits.empty() && digits.find_first_not_of("0123456789.") == std::string_view::npos && digits.front() != '.' && digits.back() != '.' && std::ranges::count(digits, '.') <= 1 &&
+  return !digits.empty() && digits.find_first_not_of("0123456789.") == std::string_view::npos &&
+         digits.front() != '.' && digits.back() != '.' && std::ranges::count(digits, '.') <= 1 &&
          (digits.size() == 1 || digits.front() != '0' || digits[1] == '.');
 }
 
@@ -37,7 +40,7 @@ json::Node& member_at(json::Node& object, std::string_view key) {
 /// A row as an object, and where each of its members stands.
 struct Record {
   json::Node object = json::Node::object();
-  std::map<std::string, json::Place, std::less<>> places;   ///< by pointer
+  std::map<std::string, json::Place, std::less<>> places;  ///< by pointer
   json::Place place;
 };
 
@@ -57,14 +60,22 @@ Record record_of(const Table& table, const Row& row, std::span<const std::string
     json::Node value;
     if (std::ranges::find(lists, column) != lists.end()) {
       value = json::Node::array();
-      for (const std::string& name : names_in(row[i], table.separator)) value.items.push_back(json::Node::of_string(name));
+      for (const std::string& name : names_in(row[i], table.separator))
+        value.items.push_back(json::Node::of_string(name));
     } else {
       const bool is_quantity = row[i].text.front() >= '0' && row[i].text.front() <= '9';
-      const std::string text = is_quantity && column != "name" && column != "master" ? as_quantity(row[i].text, unit_of(column), table.separator != ',') : row[i].text;
-      if (text == "true" || text == "yes" || text == "TRUE") value = json::Node::of_bool(true);
-      else if (text == "false" || text == "no" || text == "FALSE") value = json::Node::of_bool(false);
-      else if (is_json_number(text) && column != "name" && column != "master") { value.kind = json::Kind::number; value.text = text; }
-      else value = json::Node::of_string(text);
+      const std::string text = is_quantity && column != "name" && column != "master"
+                                   ? as_quantity(row[i].text, unit_of(column), table.separator != ',')
+                                   : row[i].text;
+      if (text == "true" || text == "yes" || text == "TRUE")
+        value = json::Node::of_bool(true);
+      else if (text == "false" || text == "no" || text == "FALSE")
+        value = json::Node::of_bool(false);
+      else if (is_json_number(text) && column != "name" && column != "master") {
+        value.kind = json::Kind::number;
+        value.text = text;
+      } else
+        value = json::Node::of_string(text);
     }
     std::string pointer = "/" + column;
     std::ranges::replace(pointer, '.', '/');
@@ -108,7 +119,9 @@ std::optional<TableKind> kind_of(const Table& table, json::Diagnostics& diagnost
   if (has_column(table, "kind")) return TableKind::devices;
   if (has_column(table, "from") && has_column(table, "to")) return TableKind::cables;
   diagnostics.error(table.header.front().place, "a table of unknown kind",
-                    {json::quote(table.header.front().text), "a header with payload and every (streams), from and to (cables), name and kind (devices), or name, master, slaves and cycle (Programs)"});
+                    {json::quote(table.header.front().text),
+                     "a header with payload and every (streams), from and to (cables), name and kind (devices), or "
+                     "name, master, slaves and cycle (Programs)"});
   return std::nullopt;
 }
 
@@ -117,18 +130,20 @@ void read_cables(const Table& table, scenario::Scenario& scenario, Imported& imp
     Record record = record_of(table, row, {});
     const std::string from = take_text(record, "from"), to = take_text(record, "to");
     std::string from_port = take_text(record, "from_port"), to_port = take_text(record, "to_port");
-    if (const std::string ports = take_text(record, "ports"); !ports.empty()) {   // "1-3"
+    if (const std::string ports = take_text(record, "ports"); !ports.empty()) {  // "1-3"
       const std::size_t sign = ports.find_first_of("-:/ ");
       from_port = ports.substr(0, sign);
       to_port = sign == std::string::npos ? "" : ports.substr(sign + 1);
     }
     for (const char* const key : {"name", "comment", "remark", "cable"}) take_text(record, key);
     if (from.empty() || to.empty()) {
-      diagnostics.error(record.place, "a cable without two ends", {from.empty() ? "no from" : "no to", "the names of two devices"});
+      diagnostics.error(record.place, "a cable without two ends",
+                        {from.empty() ? "no from" : "no to", "the names of two devices"});
       continue;
     }
     json::Node ends = json::Node::array();
-    for (const std::string& end : {end_of(from, from_port), end_of(to, to_port)}) ends.items.push_back(json::Node::of_string(end));
+    for (const std::string& end : {end_of(from, from_port), end_of(to, to_port)})
+      ends.items.push_back(json::Node::of_string(end));
     record.object.add("ends", std::move(ends));
     scenario::Link link;
     if (!decode_record(record, link, diagnostics)) continue;
@@ -138,7 +153,8 @@ void read_cables(const Table& table, scenario::Scenario& scenario, Imported& imp
   }
 }
 
-void read_devices(const Table& table, scenario::Scenario& scenario, Imported& imported, json::Diagnostics& diagnostics) {
+void read_devices(const Table& table, scenario::Scenario& scenario, Imported& imported,
+                  json::Diagnostics& diagnostics) {
   for (const Row& row : table.rows) {
     Record record = record_of(table, row, {});
     const std::string name = take_text(record, "name");
@@ -158,7 +174,8 @@ void read_devices(const Table& table, scenario::Scenario& scenario, Imported& im
   }
 }
 
-void read_programs(const Table& table, scenario::Scenario& scenario, Imported& imported, json::Diagnostics& diagnostics) {
+void read_programs(const Table& table, scenario::Scenario& scenario, Imported& imported,
+                   json::Diagnostics& diagnostics) {
   constexpr std::string_view lists[] = {"slaves"};
   for (const Row& row : table.rows) {
     const Record record = record_of(table, row, lists);

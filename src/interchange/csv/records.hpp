@@ -12,6 +12,7 @@ std::optional<TableKind> kind_of(const Table& table, json::Diagnostics& diagnost
 
 void read_cables(const Table& table, scenario::Scenario& scenario, Imported& imported, json::Diagnostics& diagnostics);
 void read_devices(const Table& table, scenario::Scenario& scenario, Imported& imported, json::Diagnostics& diagnostics);
-void read_programs(const Table& table, scenario::Scenario& scenario, Imported& imported, json::Diagnostics& diagnostics);
+void read_programs(const Table& table, scenario::Scenario& scenario, Imported& imported,
+                   json::Diagnostics& diagnostics);
 
 }  // namespace takt::interchange::csv

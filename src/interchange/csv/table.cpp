@@ -16,7 +16,8 @@ std::string trimmed(std::string_view text) {
 
 char separator_of(std::string_view text) {
   if (text.starts_with("sep=") && text.size() > 4) return text[4];
-  while (!text.empty() && (text.front() == '#' || text.front() == '\n' || text.front() == '\r')) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  while (!text.empty() && (text.front() == '#' || text.front() == '\n' || text.front() == '\r'))
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
   std::array<std::pair<char, int>, 3> counts{{{',', 0}, {';', 0}, {'\t', 0}}};
   bool is_quoted = false;
   for (const char c : text.substr(0, text.find('\n'))) {
@@ -29,7 +30,8 @@ char separator_of(std::string_view text) {
 
 class TableReader {
  public:
-  TableReader(const InputFile& file, std::string_view text, char separator, json::Diagnostics& diagnostics) : file_(file), text_(text), separator_(separator), diagnostics_(diagnostics) {}
+  TableReader(const InputFile& file, std::string_view text, char separator, json::Diagnostics& diagnostics)
+      : file_(file), text_(text), separator_(separator), diagnostics_(diagnostics) {}
 
   std::vector<Row> run() {
     std::vector<Row> rows;
@@ -64,7 +66,10 @@ class TableReader {
   }
 
   Cell read_cell() {
-    while (at_ < text_.size() && text_[at_] == ' ') { ++at_; ++column_; }
+    while (at_ < text_.size() && text_[at_] == ' ') {
+      ++at_;
+      ++column_;
+    }
     Cell cell{"", {file_.name, line_, column_, ""}};
     bool is_quoted = false;
     if (at_ < text_.size() && text_[at_] == '"') {
@@ -72,13 +77,20 @@ class TableReader {
       ++at_;
       ++column_;
       while (at_ < text_.size() && !(text_[at_] == '"' && (at_ + 1 >= text_.size() || text_[at_ + 1] != '"'))) {
-        if (text_[at_] == '"') ++at_;   // two stand for one
-        if (text_[at_] == '\n') { ++line_; column_ = 0; }
+        if (text_[at_] == '"') ++at_;  // two stand for one
+        if (text_[at_] == '\n') {
+          ++line_;
+          column_ = 0;
+        }
         cell.text += text_[at_++];
         ++column_;
       }
-      if (at_ >= text_.size()) diagnostics_.error(cell.place, "a cell that does not end", {"no closing quote", "a quote at its end"});
-      else { ++at_; ++column_; }
+      if (at_ >= text_.size())
+        diagnostics_.error(cell.place, "a cell that does not end", {"no closing quote", "a quote at its end"});
+      else {
+        ++at_;
+        ++column_;
+      }
     }
     for (; at_ < text_.size() && text_[at_] != separator_ && text_[at_] != '\n'; ++at_, ++column_)
       if (text_[at_] != '\r') cell.text += text_[at_];
@@ -95,7 +107,8 @@ class TableReader {
 };
 
 void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
 }
 
 }  // namespace
@@ -106,7 +119,8 @@ Table read_table(const InputFile& file, json::Diagnostics& diagnostics) {
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   Table table;
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    diagnostics.error({file.name, 1, 1, ""}, "text of 16 bits a character", {"a byte order mark of UTF-16", "UTF-8: in a spreadsheet \"CSV UTF-8\""});
+    diagnostics.error({file.name, 1, 1, ""}, "text of 16 bits a character",
+                      {"a byte order mark of UTF-16", "UTF-8: in a spreadsheet \"CSV UTF-8\""});
     return table;
   }
   table.separator = separator_of(text);
@@ -120,21 +134,26 @@ Table read_table(const InputFile& file, json::Diagnostics& diagnostics) {
   table.header = std::move(rows.front());
   while (!table.header.empty() && table.header.back().text.empty()) table.header.pop_back();
   for (Cell& cell : table.header)
-    std::ranges::transform(cell.text, cell.text.begin(), [](unsigned char c) { return c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(cell.text, cell.text.begin(), [](unsigned char c) {
+      return c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(c));
+    });
   for (std::size_t i = 1; i < rows.size(); ++i) {
     Row& row = rows[i];
     while (row.size() > table.header.size() && row.back().text.empty()) row.pop_back();
-    if (row.size() != table.header.size()) diagnostics.error(row.front().place, "a row of another length than the header", {std::to_string(row.size()) + " cells", std::to_string(table.header.size())});
-    else table.rows.push_back(std::move(row));
+    if (row.size() != table.header.size())
+      diagnostics.error(row.front().place, "a row of another length than the header",
+                        {std::to_string(row.size()) + " cells", std::to_string(table.header.size())});
+    else
+      table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 std::string as_quantity(std::string text, std::string_view unit, bool has_decimal_commas) {
   if (has_decimal_commas) std::ranges::replace(text, ',', '.');
-  replace_all(text, "\xC2\xB5", "u");       // the micro sign, and the Greek letter
+  replace_all(text, "\xC2\xB5", "u");  // the micro sign, and the Greek letter
   replace_all(text, "\xCE\xBC", "u");
-  replace_all(text, "\xC2\xA0", "");        // a blank that is not broken
+  replace_all(text, "\xC2\xA0", "");  // a blank that is not broken
   std::erase(text, ' ');
   for (const char* const per_second : {"bit/s", "Bit/s", "b/s", "BIT/S"}) replace_all(text, per_second, "bps");
   if (text.ends_with("bit")) text.replace(text.size() - 3, 3, "bps");

@@ -1,5 +1,4 @@
 #include "interchange/inet/reader.hpp"
-
 #include "sim/units.hpp"
 
 namespace takt::interchange::inet {
@@ -12,7 +11,7 @@ std::optional<std::int64_t> ppm_of(std::string text) {
   const bool is_negative = text.starts_with('-');
   const auto value = evaluate(text.substr(is_negative ? 1 : 0, text.size() - 3 - (is_negative ? 1 : 0)));
   if (!value || value->kind != Value::Kind::number || value->unit != Unit::none) return std::nullopt;
-  const auto parts = static_cast<std::int64_t>(value->amount / 1'000'000);   // 10^-12 of a millionth
+  const auto parts = static_cast<std::int64_t>(value->amount / 1'000'000);  // 10^-12 of a millionth
   return is_negative ? -parts : parts;
 }
 
@@ -23,8 +22,11 @@ void InetReader::read_clock(const Submodule& node) {
   const bool is_synchronised = truth(node.name + ".hasTimeSynchronization") || node.type == "TsnClock";
   const IniLine* const type = line(node.name + ".clock.typename");
   const std::string kind = type == nullptr ? "" : text(node.name + ".clock.typename").value_or("");
-  if (kind == "MultiClock") imported_.remark(RemarkKind::lost, type->place, "several clocks of a node: takt's nodes have one, which each domain sets in turn");
-  if (is_synchronised || kind == "OscillatorBasedClock" || kind == "SettableClock" || kind == "MultiClock") read_oscillator(node, is_synchronised || !kind.empty());
+  if (kind == "MultiClock")
+    imported_.remark(RemarkKind::lost, type->place,
+                     "several clocks of a node: takt's nodes have one, which each domain sets in turn");
+  if (is_synchronised || kind == "OscillatorBasedClock" || kind == "SettableClock" || kind == "MultiClock")
+    read_oscillator(node, is_synchronised || !kind.empty());
   if (!is_synchronised) return;
   scenario::Gptp& gptp = scenario_.clocks.gptp.has_value() ? *scenario_.clocks.gptp : scenario_.clocks.gptp.emplace();
   scenario_.clocks.model = scenario::ClockModel::free_running;
@@ -32,7 +34,8 @@ void InetReader::read_clock(const Submodule& node) {
   const std::uint64_t domains = number(node.name + ".gptp.numDomains", 16).value_or(1);
   line(node.name + ".gptp.typename");
   for (std::uint64_t d = 0; d < std::max<std::uint64_t>(domains, 1); ++d) {
-    const std::string prefix = domains == 1 ? node.name + ".gptp." : node.name + ".gptp.domain[" + std::to_string(d) + "].";
+    const std::string prefix =
+        domains == 1 ? node.name + ".gptp." : node.name + ".gptp.domain[" + std::to_string(d) + "].";
     for (const char* const key : {"gptpNodeType", "syncInitialOffset", "pdelayInitialOffset"}) line(prefix + key);
     scenario::GptpNode made;
     made.roles = roles_of(node, prefix);
@@ -52,13 +55,18 @@ void InetReader::read_clock(const Submodule& node) {
 }
 
 /// "masterPorts" and "slavePort", by the neighbours at them; null if neither is said.
-std::optional<std::vector<scenario::GptpPortRole>> InetReader::roles_of(const Submodule& node, const std::string& prefix) {
+std::optional<std::vector<scenario::GptpPortRole>> InetReader::roles_of(const Submodule& node,
+                                                                        const std::string& prefix) {
   std::vector<scenario::GptpPortRole> roles;
   const auto add = [&](const std::string& interface, scenario::GptpRole role, const json::Place& place) {
     std::uint32_t eth = 0;
-    const bool is_eth = interface.starts_with("eth") && std::from_chars(interface.data() + 3, interface.data() + interface.size(), eth).ec == std::errc();
+    const bool is_eth =
+        interface.starts_with("eth") &&
+        std::from_chars(interface.data() + 3, interface.data() + interface.size(), eth).ec == std::errc();
     const auto peer = ports_[node.name].find(eth);
-    if (!is_eth || peer == ports_[node.name].end()) return error(place, "an interface that is not there", json::quote(interface) + " of " + node.name, "eth0 and the like, with a cable");
+    if (!is_eth || peer == ports_[node.name].end())
+      return error(place, "an interface that is not there", json::quote(interface) + " of " + node.name,
+                   "eth0 and the like, with a cable");
     scenario::GptpPortRole made;
     made.to = peer->second;
     made.role = role;
@@ -71,7 +79,8 @@ std::optional<std::vector<scenario::GptpPortRole>> InetReader::roles_of(const Su
     if (const auto list = value(prefix + "masterPorts", json::Kind::array, "[\"eth0\", ..]"))
       for (const json::Node& each : list->items) add(each.text, scenario::GptpRole::time_transmitter, masters->place);
   if (slave != nullptr)
-    if (const auto interface = text(prefix + "slavePort"); interface && !interface->empty()) add(*interface, scenario::GptpRole::time_receiver, slave->place);
+    if (const auto interface = text(prefix + "slavePort"); interface && !interface->empty())
+      add(*interface, scenario::GptpRole::time_receiver, slave->place);
   return roles;
 }
 
@@ -80,8 +89,11 @@ void InetReader::read_oscillator(const Submodule& node, bool counts) {
   const auto type = text(prefix + "typename");
   line(prefix + "nominalTickLength");
   if (!type || *type == "IdealOscillator" || !counts) return;
-  if (*type != "ConstantDriftOscillator" && *type != "RandomDriftOscillator") return error(line(prefix + "typename")->place, "an oscillator that is not read", json::quote(*type), "ConstantDriftOscillator or RandomDriftOscillator");
-  const IniLine* const rate_line = line(prefix + (*type == "ConstantDriftOscillator" ? "driftRate" : "initialDriftRate"));
+  if (*type != "ConstantDriftOscillator" && *type != "RandomDriftOscillator")
+    return error(line(prefix + "typename")->place, "an oscillator that is not read", json::quote(*type),
+                 "ConstantDriftOscillator or RandomDriftOscillator");
+  const IniLine* const rate_line =
+      line(prefix + (*type == "ConstantDriftOscillator" ? "driftRate" : "initialDriftRate"));
   scenario::Clock clock;
   if (rate_line != nullptr) {
     std::string rate = rate_line->value;
@@ -93,14 +105,19 @@ void InetReader::read_oscillator(const Submodule& node, bool counts) {
     } else {
       from = to = ppm_of(rate);
     }
-    if (!from || !to) return error(rate_line->place, "a drift that is not read", json::quote(rate), "ppm, or uniform(-A ppm, B ppm)");
+    if (!from || !to)
+      return error(rate_line->place, "a drift that is not read", json::quote(rate), "ppm, or uniform(-A ppm, B ppm)");
     clock.offset.from = sim::FrequencyOffset{*from};
     clock.offset.to = sim::FrequencyOffset{*to};
   }
   bool wanders = false;
-  for (const char* const key : {"driftRateChange", "changeInterval", "driftRateChangeLowerLimit", "driftRateChangeUpperLimit"})
+  for (const char* const key :
+       {"driftRateChange", "changeInterval", "driftRateChangeLowerLimit", "driftRateChangeUpperLimit"})
     if (line(prefix + key) != nullptr) wanders = true;
-  if (wanders) imported_.remark(RemarkKind::lost, line(prefix + "typename")->place, "how the drift of an oscillator changes by chance: write it as \"walk\" of the clock of " + node.name);
+  if (wanders)
+    imported_.remark(
+        RemarkKind::lost, line(prefix + "typename")->place,
+        "how the drift of an oscillator changes by chance: write it as \"walk\" of the clock of " + node.name);
   scenario_.clocks.model = scenario::ClockModel::free_running;
   scenario_.clocks.nodes.emplace_back(node.name, std::move(clock));
 }

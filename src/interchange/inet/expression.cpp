@@ -14,14 +14,32 @@ constexpr int deepest_expression = 32;
 struct UnitName {
   std::string_view name;
   Unit unit;
-  std::int64_t factor;     ///< in 10^-12 of the unit, or
-  std::int64_t multiple;   ///< in the unit
+  std::int64_t factor;    ///< in 10^-12 of the unit, or
+  std::int64_t multiple;  ///< in the unit
 };
-constexpr UnitName unit_names[] = {
-    {"ps", Unit::second, 1, 0}, {"ns", Unit::second, 1'000, 0}, {"us", Unit::second, 1'000'000, 0}, {"ms", Unit::second, 1'000'000'000, 0}, {"s", Unit::second, 0, 1}, {"min", Unit::second, 0, 60}, {"h", Unit::second, 0, 3600},
-    {"bps", Unit::bit_per_second, 0, 1}, {"kbps", Unit::bit_per_second, 0, 1'000}, {"Mbps", Unit::bit_per_second, 0, 1'000'000}, {"Gbps", Unit::bit_per_second, 0, 1'000'000'000}, {"Tbps", Unit::bit_per_second, 0, 1'000'000'000'000},
-    {"b", Unit::octet, 125'000'000'000, 0}, {"B", Unit::octet, 0, 1}, {"kB", Unit::octet, 0, 1'000}, {"MB", Unit::octet, 0, 1'000'000}, {"GB", Unit::octet, 0, 1'000'000'000}, {"KiB", Unit::octet, 0, 1'024}, {"MiB", Unit::octet, 0, 1'048'576},
-    {"mm", Unit::metre, 1'000'000'000, 0}, {"cm", Unit::metre, 10'000'000'000, 0}, {"m", Unit::metre, 0, 1}, {"km", Unit::metre, 0, 1'000}};
+constexpr UnitName unit_names[] = {{"ps", Unit::second, 1, 0},
+                                   {"ns", Unit::second, 1'000, 0},
+                                   {"us", Unit::second, 1'000'000, 0},
+                                   {"ms", Unit::second, 1'000'000'000, 0},
+                                   {"s", Unit::second, 0, 1},
+                                   {"min", Unit::second, 0, 60},
+                                   {"h", Unit::second, 0, 3600},
+                                   {"bps", Unit::bit_per_second, 0, 1},
+                                   {"kbps", Unit::bit_per_second, 0, 1'000},
+                                   {"Mbps", Unit::bit_per_second, 0, 1'000'000},
+                                   {"Gbps", Unit::bit_per_second, 0, 1'000'000'000},
+                                   {"Tbps", Unit::bit_per_second, 0, 1'000'000'000'000},
+                                   {"b", Unit::octet, 125'000'000'000, 0},
+                                   {"B", Unit::octet, 0, 1},
+                                   {"kB", Unit::octet, 0, 1'000},
+                                   {"MB", Unit::octet, 0, 1'000'000},
+                                   {"GB", Unit::octet, 0, 1'000'000'000},
+                                   {"KiB", Unit::octet, 0, 1'024},
+                                   {"MiB", Unit::octet, 0, 1'048'576},
+                                   {"mm", Unit::metre, 1'000'000'000, 0},
+                                   {"cm", Unit::metre, 10'000'000'000, 0},
+                                   {"m", Unit::metre, 0, 1},
+                                   {"km", Unit::metre, 0, 1'000}};
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -88,8 +106,18 @@ class Evaluator {
       if (!take(sign)) continue;
       const Result right = sum();
       if (!left || !right || left->kind != right->kind || left->unit != right->unit) return std::nullopt;
-      const int order = left->kind == Value::Kind::number ? (left->amount < right->amount ? -1 : left->amount > right->amount ? 1 : 0) : left->kind == Value::Kind::text ? left->text.compare(right->text) : static_cast<int>(left->truth) - static_cast<int>(right->truth);
-      return truth(sign == "==" ? order == 0 : sign == "!=" ? order != 0 : sign == "<=" ? order <= 0 : sign == ">=" ? order >= 0 : sign == "<" ? order < 0 : order > 0);
+      const int order = left->kind == Value::Kind::number ? (left->amount < right->amount   ? -1
+                                                             : left->amount > right->amount ? 1
+                                                                                            : 0)
+                        : left->kind == Value::Kind::text
+                            ? left->text.compare(right->text)
+                            : static_cast<int>(left->truth) - static_cast<int>(right->truth);
+      return truth(sign == "=="   ? order == 0
+                   : sign == "!=" ? order != 0
+                   : sign == "<=" ? order <= 0
+                   : sign == ">=" ? order >= 0
+                   : sign == "<"  ? order < 0
+                                  : order > 0);
     }
     return left;
   }
@@ -101,10 +129,16 @@ class Evaluator {
       if (sign != '+' && sign != '-') return left;
       ++at_;
       const Result right = product();
-      if (!left || !right || left->kind != right->kind) { left.reset(); continue; }
-      if (left->kind == Value::Kind::text && sign == '+') left->text += right->text;
-      else if (left->kind != Value::Kind::number || left->unit != right->unit) left.reset();
-      else left->amount += sign == '+' ? right->amount : -right->amount;
+      if (!left || !right || left->kind != right->kind) {
+        left.reset();
+        continue;
+      }
+      if (left->kind == Value::Kind::text && sign == '+')
+        left->text += right->text;
+      else if (left->kind != Value::Kind::number || left->unit != right->unit)
+        left.reset();
+      else
+        left->amount += sign == '+' ? right->amount : -right->amount;
     }
   }
   Result product() {
@@ -123,10 +157,13 @@ class Evaluator {
     if (sign == '*') {
       const bool left_is_plain = left.unit == Unit::none;
       if (!left_is_plain && right.unit != Unit::none) return std::nullopt;
-      const sim::int128 plain = left_is_plain ? left.amount : right.amount, other = left_is_plain ? right.amount : left.amount;
+      const sim::int128 plain = left_is_plain ? left.amount : right.amount,
+                        other = left_is_plain ? right.amount : left.amount;
       if (plain % scale != 0 && other % scale != 0) return std::nullopt;
-      const sim::int128 whole = plain % scale == 0 ? plain / scale : other / scale, rest = plain % scale == 0 ? other : plain;
-      if (rest != 0 && (whole > greatest / (rest < 0 ? -rest : rest) || -whole > greatest / (rest < 0 ? -rest : rest))) return std::nullopt;
+      const sim::int128 whole = plain % scale == 0 ? plain / scale : other / scale,
+                        rest = plain % scale == 0 ? other : plain;
+      if (rest != 0 && (whole > greatest / (rest < 0 ? -rest : rest) || -whole > greatest / (rest < 0 ? -rest : rest)))
+        return std::nullopt;
       left.amount = whole * rest;
       left.unit = left_is_plain ? right.unit : left.unit;
       return left;
@@ -165,15 +202,18 @@ class Evaluator {
       ++at_;
       Result inner = atom();
       if (!inner || inner->kind != (c == '-' ? Value::Kind::number : Value::Kind::truth)) return std::nullopt;
-      if (c == '-') inner->amount = -inner->amount;
-      else inner->truth = !inner->truth;
+      if (c == '-')
+        inner->amount = -inner->amount;
+      else
+        inner->truth = !inner->truth;
       return inner;
     }
     if (c == '"') return text();
     if (is_digit(c) || c == '.') return number();
     if (!is_letter(c)) return std::nullopt;
     std::string name;
-    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '.')) name += text_[at_++];
+    while (at_ < text_.size() && (is_letter(text_[at_]) || is_digit(text_[at_]) || text_[at_] == '.'))
+      name += text_[at_++];
     if (name == "true" || name == "false") return truth(name == "true");
     if (take("(")) return call(name);
     for (const std::string_view prefix : {"this.", "parent."})
@@ -185,7 +225,9 @@ class Evaluator {
     Result first = choice();
     while (take(",")) choice();
     if (!take(")")) return std::nullopt;
-    if (name == "default" || name == "firstAvailableOrEmpty" || name == "firstAvailable" || name == "int" || name == "double" || name == "replaceUnit" || name == "convertUnit") return first;
+    if (name == "default" || name == "firstAvailableOrEmpty" || name == "firstAvailable" || name == "int" ||
+        name == "double" || name == "replaceUnit" || name == "convertUnit")
+      return first;
     if (name == "dropUnit" && first) first->unit = Unit::none;
     return name == "dropUnit" ? first : std::nullopt;
   }
@@ -205,8 +247,13 @@ class Evaluator {
     Value value;
     sim::int128 digits = 0, fraction = scale;
     bool is_behind = false;
-    for (; at_ < text_.size() && (is_digit(text_[at_]) || (text_[at_] == '.' && !is_behind && at_ + 1 < text_.size() && text_[at_ + 1] != '.')); ++at_) {
-      if (text_[at_] == '.') { is_behind = true; continue; }
+    for (; at_ < text_.size() && (is_digit(text_[at_]) ||
+                                  (text_[at_] == '.' && !is_behind && at_ + 1 < text_.size() && text_[at_ + 1] != '.'));
+         ++at_) {
+      if (text_[at_] == '.') {
+        is_behind = true;
+        continue;
+      }
       if (digits > greatest / 10) return std::nullopt;
       digits = digits * 10 + (text_[at_] - '0');
       if (is_behind) {
@@ -220,7 +267,7 @@ class Evaluator {
     while (at_ < text_.size() && is_letter(text_[at_])) name += text_[at_++];
     const auto found = std::ranges::find(unit_names, name, &UnitName::name);
     if (name.empty() || found == std::end(unit_names)) {
-      if (!name.empty() && behind == at_ - name.size()) return std::nullopt;   // "5ppm" and the like
+      if (!name.empty() && behind == at_ - name.size()) return std::nullopt;  // "5ppm" and the like
       at_ = behind;
       if (digits > greatest / fraction) return std::nullopt;
       value.amount = digits * fraction;

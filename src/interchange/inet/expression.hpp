@@ -15,11 +15,11 @@ enum class Unit : std::uint8_t { none, second, bit_per_second, octet, metre };
 struct Value {
   enum class Kind : std::uint8_t { number, text, truth };
   Kind kind = Kind::number;
-  sim::int128 amount = 0;     ///< of a number: in 10^-12 of its unit
+  sim::int128 amount = 0;  ///< of a number: in 10^-12 of its unit
   Unit unit = Unit::none;
   std::string text;
   bool truth = false;
-  std::optional<std::int64_t> whole() const;   ///< of a number without a unit
+  std::optional<std::int64_t> whole() const;  ///< of a number without a unit
 };
 
 /// What a name stands for; null if it is not known.

@@ -97,7 +97,10 @@ class ValueParser {
 
   std::string word() {
     std::string text;
-    while (at_ < text_.size() && std::string_view("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_").find(text_[at_]) != std::string_view::npos) text += text_[at_++];
+    while (at_ < text_.size() &&
+           std::string_view("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_").find(text_[at_]) !=
+               std::string_view::npos)
+      text += text_[at_++];
     return text;
   }
 
@@ -122,7 +125,8 @@ bool is_in_range(std::string_view range, std::string_view number) {
 /// The time is bounded by a table: pattern and path are at most some hundred characters.
 class Matcher {
  public:
-  Matcher(std::string_view pattern, std::string_view path) : pattern_(pattern), path_(path), known_((pattern.size() + 1) * (path.size() + 1), 0) {}
+  Matcher(std::string_view pattern, std::string_view path)
+      : pattern_(pattern), path_(path), known_((pattern.size() + 1) * (path.size() + 1), 0) {}
   bool run(std::size_t p, std::size_t t) {
     char& known = known_[p * (path_.size() + 1) + t];
     if (known != 0) return known == 1;
@@ -139,7 +143,8 @@ class Matcher {
     if (pattern_[p] == '[' || pattern_[p] == '{') {
       const char close = pattern_[p] == '[' ? ']' : '}';
       const std::size_t end = pattern_.find(close, p);
-      const std::string_view inner = end == std::string_view::npos ? std::string_view() : pattern_.substr(p + 1, end - p - 1);
+      const std::string_view inner =
+          end == std::string_view::npos ? std::string_view() : pattern_.substr(p + 1, end - p - 1);
       if (inner.find("..") != std::string_view::npos) {
         std::size_t from = t;
         if (close == ']') {
@@ -152,7 +157,8 @@ class Matcher {
         if (close == ']') return stop < path_.size() && path_[stop] == ']' && run(end + 1, stop + 1);
         return run(end + 1, stop);
       }
-      if (close == '}' && inner.size() == 3 && inner[1] == '-') return t < path_.size() && path_[t] >= inner[0] && path_[t] <= inner[2] && run(end + 1, t + 1);
+      if (close == '}' && inner.size() == 3 && inner[1] == '-')
+        return t < path_.size() && path_[t] >= inner[0] && path_[t] <= inner[2] && run(end + 1, t + 1);
     }
     if (t >= path_.size()) return false;
     if (pattern_[p] == '?') return path_[t] != '.' && run(p + 1, t + 1);
@@ -180,7 +186,8 @@ std::vector<std::string> iterated(std::string_view text) {
   const auto read_number = [](const std::string& word) -> std::optional<std::int64_t> {
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc() && !word.empty() && stop == word.data() + word.size() ? std::optional(value) : std::nullopt;
+    return error == std::errc() && !word.empty() && stop == word.data() + word.size() ? std::optional(value)
+                                                                                      : std::nullopt;
   };
   std::string item;
   int depth = 0;
@@ -191,8 +198,12 @@ std::vector<std::string> iterated(std::string_view text) {
     const std::size_t dots = one.find("..");
     const std::size_t step_at = one.find(" step ");
     const auto first = dots == std::string::npos ? std::nullopt : read_number(trimmed(one.substr(0, dots)));
-    const auto last = dots == std::string::npos ? std::nullopt : read_number(trimmed(one.substr(dots + 2, step_at == std::string::npos ? step_at : step_at - dots - 2)));
-    const auto step = step_at == std::string::npos ? std::optional<std::int64_t>(1) : read_number(trimmed(one.substr(step_at + 6)));
+    const auto last =
+        dots == std::string::npos
+            ? std::nullopt
+            : read_number(trimmed(one.substr(dots + 2, step_at == std::string::npos ? step_at : step_at - dots - 2)));
+    const auto step =
+        step_at == std::string::npos ? std::optional<std::int64_t>(1) : read_number(trimmed(one.substr(step_at + 6)));
     if (!first || !last || !step || *step <= 0) return values.push_back(one);
     for (std::int64_t n = *first; n <= *last && values.size() < 10'000; n += *step) values.push_back(std::to_string(n));
   };
@@ -200,8 +211,10 @@ std::vector<std::string> iterated(std::string_view text) {
     if (c == '"') is_quoted = !is_quoted;
     if (c == '(' || c == '[' || c == '{') ++depth;
     if (c == ')' || c == ']' || c == '}') --depth;
-    if (c == ',' && depth == 0 && !is_quoted) end_item();
-    else item += c;
+    if (c == ',' && depth == 0 && !is_quoted)
+      end_item();
+    else
+      item += c;
   }
   end_item();
   return values;
@@ -210,7 +223,11 @@ std::vector<std::string> iterated(std::string_view text) {
 /// The iterations of all lines, with the values of one run in their place.
 class Iterations {
  public:
-  Iterations(std::uint64_t run, const std::string& section) : run_(run) { chosen_["configname"] = section; chosen_["runnumber"] = std::to_string(run); chosen_["repetition"] = "0"; }
+  Iterations(std::uint64_t run, const std::string& section) : run_(run) {
+    chosen_["configname"] = section;
+    chosen_["runnumber"] = std::to_string(run);
+    chosen_["repetition"] = "0";
+  }
 
   void find(const std::vector<IniLine>& lines) {
     for (const IniLine& line : lines)
@@ -220,7 +237,9 @@ class Iterations {
         const std::string name = is_named ? trimmed(inside.substr(0, equals)) : inside;
         std::string values = is_named ? inside.substr(equals + 1) : inside;
         if (!is_named && inside.find(',') == std::string::npos && inside.find("..") == std::string::npos) return;
-        if (chosen_.contains(name) || std::ranges::any_of(all_, [&](const Iteration& each) { return each.name == name; })) return;
+        if (chosen_.contains(name) ||
+            std::ranges::any_of(all_, [&](const Iteration& each) { return each.name == name; }))
+          return;
         Iteration made{name, {}, ""};
         if (const std::size_t mark = values.rfind('!'); mark != std::string::npos) {
           made.beside = trimmed(values.substr(mark + 1));
@@ -254,7 +273,7 @@ class Iterations {
   struct Iteration {
     std::string name;
     std::vector<std::string> values;
-    std::string beside;    ///< another, whose place it takes
+    std::string beside;  ///< another, whose place it takes
   };
   static std::size_t end_of(const std::string& value, std::size_t open) {
     int depth = 0;
@@ -267,7 +286,8 @@ class Iterations {
   template <class Use>
   static void for_each(const std::string& value, Use use) {
     for (std::size_t open = value.find("${"); open != std::string::npos; open = value.find("${", open + 2))
-      if (const std::size_t close = end_of(value, open); close != std::string::npos) use(value.substr(open + 2, close - open - 2));
+      if (const std::size_t close = end_of(value, open); close != std::string::npos)
+        use(value.substr(open + 2, close - open - 2));
   }
   /// The first varies slowest.
   void choose() {
@@ -296,7 +316,8 @@ class Iterations {
 
 }  // namespace
 
-void Ini::read(const InputFile& file, const std::string& section, std::uint64_t run, std::vector<Remark>& remarks, json::Diagnostics& diagnostics) {
+void Ini::read(const InputFile& file, const std::string& section, std::uint64_t run, std::vector<Remark>& remarks,
+               json::Diagnostics& diagnostics) {
   struct Section {
     std::vector<IniLine> lines;
     std::string extends;
@@ -314,8 +335,15 @@ void Ini::read(const InputFile& file, const std::string& section, std::uint64_t 
     std::string content = trimmed(line);
     const bool continues = content.ends_with('\\');
     if (continues) content = trimmed(std::string_view(content).substr(0, content.size() - 1));
-    const json::Place place{file.name, number, static_cast<std::uint32_t>(line.find_first_not_of(" \t") == std::string::npos ? 1 : line.find_first_not_of(" \t") + 1), ""};
-    if (content.empty()) { goes_on = goes_on && continues; continue; }
+    const json::Place place{file.name, number,
+                            static_cast<std::uint32_t>(line.find_first_not_of(" \t") == std::string::npos
+                                                           ? 1
+                                                           : line.find_first_not_of(" \t") + 1),
+                            ""};
+    if (content.empty()) {
+      goes_on = goes_on && continues;
+      continue;
+    }
     if ((is_indented || goes_on) && last != nullptr) {
       last->value += " " + content;
       goes_on = continues;
@@ -324,22 +352,36 @@ void Ini::read(const InputFile& file, const std::string& section, std::uint64_t 
     goes_on = continues;
     last = nullptr;
     if (content.front() == '[') {
-      if (content.back() != ']') { diagnostics.error(place, "a section that does not end", {json::quote(content), "[General] or [Config NAME]"}); continue; }
+      if (content.back() != ']') {
+        diagnostics.error(place, "a section that does not end", {json::quote(content), "[General] or [Config NAME]"});
+        continue;
+      }
       current = trimmed(std::string_view(content).substr(1, content.size() - 2));
       if (current.starts_with("Config ")) current = trimmed(std::string_view(current).substr(7));
       sections[current];
       continue;
     }
-    if (content.starts_with("include ")) { diagnostics.error(place, "a further file", {json::quote(content), "one file without include"}); continue; }
+    if (content.starts_with("include ")) {
+      diagnostics.error(place, "a further file", {json::quote(content), "one file without include"});
+      continue;
+    }
     const std::size_t equals = content.find('=');
-    if (equals == std::string::npos) { diagnostics.error(place, "not a setting", {json::quote(content), "KEY = VALUE"}); continue; }
-    IniLine made{trimmed(std::string_view(content).substr(0, equals)), trimmed(std::string_view(content).substr(equals + 1)), place, false};
-    if (made.key == "extends") { sections[current].extends = made.value; continue; }
+    if (equals == std::string::npos) {
+      diagnostics.error(place, "not a setting", {json::quote(content), "KEY = VALUE"});
+      continue;
+    }
+    IniLine made{trimmed(std::string_view(content).substr(0, equals)),
+                 trimmed(std::string_view(content).substr(equals + 1)), place, false};
+    if (made.key == "extends") {
+      sections[current].extends = made.value;
+      continue;
+    }
     sections[current].lines.push_back(std::move(made));
     last = &sections[current].lines.back();
   }
   if (!sections.contains(section) && section != "General") {
-    diagnostics.error({file.name, 0, 0, ""}, "no such section", {json::quote(section), "the name of a section, as -o config=NAME"});
+    diagnostics.error({file.name, 0, 0, ""}, "no such section",
+                      {json::quote(section), "the name of a section, as -o config=NAME"});
     return;
   }
   // The section, what it extends, and General last.
@@ -359,11 +401,19 @@ void Ini::read(const InputFile& file, const std::string& section, std::uint64_t 
   }
   Iterations iterations(run, section);
   iterations.find(lines_);
-  if (iterations.any() && run >= iterations.runs()) diagnostics.error({file.name, 0, 0, ""}, "no such run", {"run " + std::to_string(run), "0 to " + std::to_string(iterations.runs() - 1)});
-  if (iterations.any() && iterations.runs() > 1) remarks.push_back({RemarkKind::odd, {file.name, 0, 0, ""}, "one of " + std::to_string(iterations.runs()) + " runs of its iterations: number " + std::to_string(run) + " (-o run=N)"});
+  if (iterations.any() && run >= iterations.runs())
+    diagnostics.error({file.name, 0, 0, ""}, "no such run",
+                      {"run " + std::to_string(run), "0 to " + std::to_string(iterations.runs() - 1)});
+  if (iterations.any() && iterations.runs() > 1)
+    remarks.push_back({RemarkKind::odd,
+                       {file.name, 0, 0, ""},
+                       "one of " + std::to_string(iterations.runs()) + " runs of its iterations: number " +
+                           std::to_string(run) + " (-o run=N)"});
   for (IniLine& line : lines_) {
     line.value = iterations.replaced(line.value);
-    if (line.value.find("${") != std::string::npos) diagnostics.error(line.place, "a variable without a value", {json::quote(line.value), "an iteration of that name"});
+    if (line.value.find("${") != std::string::npos)
+      diagnostics.error(line.place, "a variable without a value",
+                        {json::quote(line.value), "an iteration of that name"});
   }
 }
 
@@ -371,7 +421,7 @@ const IniLine* Ini::find(const std::string& path) {
   const IniLine* first = nullptr;
   for (IniLine& line : lines_) {
     if (!matches(line.key, path)) continue;
-    line.is_used = true;   // also what an earlier line hides: it is understood
+    line.is_used = true;  // also what an earlier line hides: it is understood
     if (first == nullptr) first = &line;
   }
   return first;

@@ -22,27 +22,51 @@ std::vector<Token> tokens_of(const InputFile& file, json::Diagnostics& diagnosti
   std::size_t at = 0;
   const auto advance = [&](std::size_t count) {
     for (; count > 0 && at < text.size(); --count, ++at) {
-      if (text[at] == '\n') { ++line; column = 1; } else ++column;
+      if (text[at] == '\n') {
+        ++line;
+        column = 1;
+      } else
+        ++column;
     }
   };
-  const auto is_word = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
+  const auto is_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
   while (at < text.size()) {
     const char c = text[at];
-    if (c == ' ' || c == '\t' || c == '\r' || c == '\n') { advance(1); continue; }
-    if (text.compare(at, 2, "//") == 0) { while (at < text.size() && text[at] != '\n') advance(1); continue; }
+    if (c == ' ' || c == '\t' || c == '\r' || c == '\n') {
+      advance(1);
+      continue;
+    }
+    if (text.compare(at, 2, "//") == 0) {
+      while (at < text.size() && text[at] != '\n') advance(1);
+      continue;
+    }
     Token token{"", {file.name, line, column, ""}};
     if (is_word(c)) {
       // "1.5ms" is one word, "a.b" three, "0..3" three.
       const bool is_number = c >= '0' && c <= '9';
-      while (at < text.size() && (is_word(text[at]) || (is_number && text[at] == '.' && at + 1 < text.size() && text[at + 1] >= '0' && text[at + 1] <= '9'))) { token.text += text[at]; advance(1); }
+      while (at < text.size() && (is_word(text[at]) || (is_number && text[at] == '.' && at + 1 < text.size() &&
+                                                        text[at + 1] >= '0' && text[at + 1] <= '9'))) {
+        token.text += text[at];
+        advance(1);
+      }
     } else if (c == '"') {
       do {
-        if (text[at] == '\\' && at + 1 < text.size()) { token.text += text[at]; advance(1); }
+        if (text[at] == '\\' && at + 1 < text.size()) {
+          token.text += text[at];
+          advance(1);
+        }
         token.text += text[at];
         advance(1);
       } while (at < text.size() && text[at] != '"' && text[at] != '\n');
-      if (at >= text.size() || text[at] != '"') diagnostics.error(token.place, "a text that does not end", {json::quote(token.text), "a quote on the same line"});
-      else { token.text += '"'; advance(1); }
+      if (at >= text.size() || text[at] != '"')
+        diagnostics.error(token.place, "a text that does not end",
+                          {json::quote(token.text), "a quote on the same line"});
+      else {
+        token.text += '"';
+        advance(1);
+      }
     } else {
       std::string_view sign;
       for (const std::string_view each : {"<-->", "-->", "<--", "++", "..", "**", "==", "!=", "<=", ">=", "&&", "||"})
@@ -57,22 +81,34 @@ std::vector<Token> tokens_of(const InputFile& file, json::Diagnostics& diagnosti
 
 class Parser {
  public:
-  Parser(const InputFile& file, json::Diagnostics& diagnostics) : tokens_(tokens_of(file, diagnostics)), diagnostics_(diagnostics), end_{"", {file.name, tokens_.empty() ? 1u : tokens_.back().place.line, 1, ""}} {}
+  Parser(const InputFile& file, json::Diagnostics& diagnostics)
+      : tokens_(tokens_of(file, diagnostics)),
+        diagnostics_(diagnostics),
+        end_{"", {file.name, tokens_.empty() ? 1u : tokens_.back().place.line, 1, ""}} {}
 
   std::vector<NedType> run() {
     while (!at_end() && !failed_) {
-      if (is("package")) { take(); package_ = dotted(); expect(";"); }
-      else if (is("import")) { skip_to(";"); }
-      else if (is("@")) { skip_property(); }
-      else if (is("property")) { skip_to(";"); }
-      else if (!read_type()) refuse(take(), "not of NED", "package, import, network, module or channel");
+      if (is("package")) {
+        take();
+        package_ = dotted();
+        expect(";");
+      } else if (is("import")) {
+        skip_to(";");
+      } else if (is("@")) {
+        skip_property();
+      } else if (is("property")) {
+        skip_to(";");
+      } else if (!read_type())
+        refuse(take(), "not of NED", "package, import, network, module or channel");
     }
     return std::move(types_);
   }
 
  private:
   bool at_end() const { return next_ >= tokens_.size(); }
-  const Token& peek(std::size_t ahead = 0) const { return next_ + ahead >= tokens_.size() ? end_ : tokens_[next_ + ahead]; }
+  const Token& peek(std::size_t ahead = 0) const {
+    return next_ + ahead >= tokens_.size() ? end_ : tokens_[next_ + ahead];
+  }
   bool is(std::string_view text) const { return !at_end() && tokens_[next_].text == text; }
   Token take() { return at_end() ? end_ : tokens_[next_++]; }
   bool take_if(std::string_view text) {
@@ -81,7 +117,9 @@ class Parser {
     return true;
   }
   void refuse(const Token& token, std::string message, std::string expected) {
-    if (!failed_) diagnostics_.error(token.place, std::move(message), {token.text.empty() ? "the end" : json::quote(token.text), std::move(expected)});
+    if (!failed_)
+      diagnostics_.error(token.place, std::move(message),
+                         {token.text.empty() ? "the end" : json::quote(token.text), std::move(expected)});
     failed_ = true;
   }
   void expect(std::string_view text) {
@@ -115,7 +153,9 @@ class Parser {
     while (is(".")) name += take().text + take().text;
     return name;
   }
-  static std::string last_part(const std::string& name) { return name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1); }
+  static std::string last_part(const std::string& name) {
+    return name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1);
+  }
   /// The text of an expression, up to one of the signs that end it outside of brackets.
   std::string expression(std::initializer_list<std::string_view> ends) {
     std::string text;
@@ -126,7 +166,8 @@ class Parser {
       if (next == "(" || next == "[" || next == "{") ++depth;
       if (next == ")" || next == "]" || next == "}") --depth;
       const Token token = take();
-      const bool joins = !text.empty() && (std::isalnum(static_cast<unsigned char>(text.back())) != 0) && (std::isalnum(static_cast<unsigned char>(token.text[0])) != 0);
+      const bool joins = !text.empty() && (std::isalnum(static_cast<unsigned char>(text.back())) != 0) &&
+                         (std::isalnum(static_cast<unsigned char>(token.text[0])) != 0);
       text += (joins ? " " : "") + token.text;
     }
     return text;
@@ -136,20 +177,26 @@ class Parser {
     NedType type;
     type.place = peek().place;
     type.package = package_;
-    if (is("network")) type.kind = NedType::Kind::network;
-    else if (is("module") || is("simple")) type.kind = NedType::Kind::module;
-    else if (is("channel")) type.kind = NedType::Kind::channel;
+    if (is("network"))
+      type.kind = NedType::Kind::network;
+    else if (is("module") || is("simple"))
+      type.kind = NedType::Kind::module;
+    else if (is("channel"))
+      type.kind = NedType::Kind::channel;
     else if (is("moduleinterface") || is("channelinterface")) {
       while (!at_end() && !is("{")) take();
       skip_brackets("{", "}");
       return true;
-    } else return false;
+    } else
+      return false;
     if (++depth_ > deepest_brackets) refuse(peek(), "types within types, too deep", "a few");
     take();
     type.name = take().text;
     if (take_if("extends")) type.base = last_part(dotted());
     while (take_if(",")) dotted();
-    if (take_if("like")) do dotted(); while (take_if(","));
+    if (take_if("like")) do
+        dotted();
+      while (take_if(","));
     expect("{");
     read_body(type);
     expect("}");
@@ -162,18 +209,24 @@ class Parser {
     std::string section = "parameters";
     while (!failed_ && !at_end() && !is("}")) {
       static constexpr std::array sections = {"parameters", "submodules", "connections", "gates", "types"};
-      const bool begins = std::ranges::find(sections, peek().text) != sections.end() && (peek(1).text == ":" || peek(1).text == "allowunconnected");
+      const bool begins = std::ranges::find(sections, peek().text) != sections.end() &&
+                          (peek(1).text == ":" || peek(1).text == "allowunconnected");
       if (begins) {
         section = take().text;
         take_if("allowunconnected");
         expect(":");
-      } else if (is("@")) skip_property();
-      else if (section == "parameters") read_parameter(type.parameters);
-      else if (section == "gates") skip_to(";");
+      } else if (is("@"))
+        skip_property();
+      else if (section == "parameters")
+        read_parameter(type.parameters);
+      else if (section == "gates")
+        skip_to(";");
       else if (section == "types") {
         if (!read_type()) refuse(take(), "not a type", "channel or module");
-      } else if (section == "submodules") read_submodule(type.submodules);
-      else read_connections(type.connections, {});
+      } else if (section == "submodules")
+        read_submodule(type.submodules);
+      else
+        read_connections(type.connections, {});
     }
   }
 
@@ -181,7 +234,8 @@ class Parser {
   void read_parameter(std::vector<NedAssignment>& into) {
     NedAssignment made;
     made.place = peek().place;
-    while (is("volatile") || is("bool") || is("int") || is("double") || is("string") || is("xml") || is("object")) take();
+    while (is("volatile") || is("bool") || is("int") || is("double") || is("string") || is("xml") || is("object"))
+      take();
     while (!at_end() && !failed_ && !is("=") && !is(";") && !is("@") && !is("}")) made.pattern += take().text;
     while (is("@")) {
       take();
@@ -216,7 +270,8 @@ class Parser {
       made.is_chosen = true;
       made.chosen = expression({">"});
       expect(">");
-      if (made.chosen.starts_with("default(") && made.chosen.ends_with(")")) made.chosen = made.chosen.substr(8, made.chosen.size() - 9);
+      if (made.chosen.starts_with("default(") && made.chosen.ends_with(")"))
+        made.chosen = made.chosen.substr(8, made.chosen.size() - 9);
       expect("like");
       dotted();
     } else {
@@ -228,10 +283,15 @@ class Parser {
       expect("{");
       std::string section = "parameters";
       while (!failed_ && !at_end() && !is("}")) {
-        if ((is("parameters") || is("gates")) && peek(1).text == ":") { section = take().text; take(); }
-        else if (is("@")) skip_property();
-        else if (section == "gates") skip_to(";");
-        else read_parameter(made.parameters);
+        if ((is("parameters") || is("gates")) && peek(1).text == ":") {
+          section = take().text;
+          take();
+        } else if (is("@"))
+          skip_property();
+        else if (section == "gates")
+          skip_to(";");
+        else
+          read_parameter(made.parameters);
       }
       expect("}");
       take_if(";");
@@ -246,7 +306,7 @@ class Parser {
       end.index = expression({"]"});
       expect("]");
     }
-    if (!take_if(".")) {   // a gate of the network itself
+    if (!take_if(".")) {  // a gate of the network itself
       end.is_ethernet = false;
       return end;
     }
@@ -296,18 +356,23 @@ class Parser {
     made.place = peek().place;
     made.a = read_end();
     const Token arrow = take();
-    if (arrow.text != "<-->" && arrow.text != "-->" && arrow.text != "<--") return refuse(arrow, "not a connection", "<-->");
+    if (arrow.text != "<-->" && arrow.text != "-->" && arrow.text != "<--")
+      return refuse(arrow, "not a connection", "<-->");
     if (is("{") || !is_end_here()) {
       if (!is("{")) made.channel = last_part(dotted());
       if (take_if("{")) {
         while (!failed_ && !at_end() && !is("}")) {
-          if (is("@")) skip_property();
-          else if (is("parameters") && peek(1).text == ":") { take(); take(); }
-          else read_parameter(made.parameters);
+          if (is("@"))
+            skip_property();
+          else if (is("parameters") && peek(1).text == ":") {
+            take();
+            take();
+          } else
+            read_parameter(made.parameters);
         }
         expect("}");
       }
-      take();   // the second arrow
+      take();  // the second arrow
     }
     made.b = read_end();
     if (is("for") || is("if")) read_brackets(brackets);
@@ -337,6 +402,8 @@ class Parser {
 
 }  // namespace
 
-std::vector<NedType> read_ned(const InputFile& file, json::Diagnostics& diagnostics) { return Parser(file, diagnostics).run(); }
+std::vector<NedType> read_ned(const InputFile& file, json::Diagnostics& diagnostics) {
+  return Parser(file, diagnostics).run();
+}
 
 }  // namespace takt::interchange::inet

@@ -1,4 +1,5 @@
-// The reader of INET's networks: values and nodes (import.cpp), sources and streams (streams.cpp), ports, gates and filters (ports.cpp), clocks (clocks.cpp).
+// The reader of INET's networks: values and nodes (import.cpp), sources and streams (streams.cpp), ports, gates and
+// filters (ports.cpp), clocks (clocks.cpp).
 #pragma once
 
 #include <algorithm>
@@ -22,12 +23,14 @@ using sim::Duration;
 
 /// Modules of INET that are no nodes: they configure, draw or write.
 inline bool is_no_node(const std::string& type) {
-  return type.ends_with("Configurator") || type.ends_with("Visualizer") || type == "PcapRecorder" || type == "CanvasRecorder";
+  return type.ends_with("Configurator") || type.ends_with("Visualizer") || type == "PcapRecorder" ||
+         type == "CanvasRecorder";
 }
 
 class InetReader {
  public:
-  InetReader(const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics) : request_(request), imported_(imported), diagnostics_(diagnostics) {}
+  InetReader(const ImportRequest& request, Imported& imported, json::Diagnostics& diagnostics)
+      : request_(request), imported_(imported), diagnostics_(diagnostics) {}
 
   void run() {
     std::vector<NedType> types;
@@ -39,7 +42,8 @@ class InetReader {
       } else if (file.name.ends_with(".ini")) {
         ini_.read(file, request_.settings["config"], *run, imported_.remarks, diagnostics_);
       } else {
-        diagnostics_.error({file.name, 0, 0, ""}, "a file of unknown kind", {json::quote(file.name), "a name that ends with .ned or .ini"});
+        diagnostics_.error({file.name, 0, 0, ""}, "a file of unknown kind",
+                           {json::quote(file.name), "a name that ends with .ned or .ini"});
       }
     }
     if (diagnostics_.has_errors()) return;
@@ -54,7 +58,8 @@ class InetReader {
     for (const Submodule& node : network_.submodules)
       if (!is_no_node(node.type)) read_node(node);
     // In the order of their ports, which is that of the file if takt wrote it.
-    std::ranges::stable_sort(scenario_.streams, {}, [&](const scenario::Stream& stream) { return port_of_stream_[stream.name]; });
+    std::ranges::stable_sort(scenario_.streams, {},
+                             [&](const scenario::Stream& stream) { return port_of_stream_[stream.name]; });
     add_redundant();
     end_clocks();
     read_schedule();
@@ -63,7 +68,9 @@ class InetReader {
   }
 
  private:
-  void error(const json::Place& place, std::string message, std::string found, std::string expected) { diagnostics_.error(place, std::move(message), {std::move(found), std::move(expected)}); }
+  void error(const json::Place& place, std::string message, std::string found, std::string expected) {
+    diagnostics_.error(place, std::move(message), {std::move(found), std::move(expected)});
+  }
 
   bool choose(const std::vector<NedType>& types) {
     const IniLine* const name = ini_.find_global("network");
@@ -71,11 +78,16 @@ class InetReader {
     if (wanted.starts_with('"') && wanted.size() > 1) wanted = wanted.substr(1, wanted.size() - 2);
     wanted = wanted.substr(wanted.rfind('.') == std::string::npos ? 0 : wanted.rfind('.') + 1);
     const auto is_network = [](const NedType& each) { return each.kind == NedType::Kind::network; };
-    if (name == nullptr && std::ranges::count_if(types, is_network) == 1) wanted = std::ranges::find_if(types, is_network)->name;
+    if (name == nullptr && std::ranges::count_if(types, is_network) == 1)
+      wanted = std::ranges::find_if(types, is_network)->name;
     auto network = network_of(types, wanted, ini_, diagnostics_);
     if (!network) {
       if (diagnostics_.has_errors()) return false;
-      error(name == nullptr ? json::Place{request_.files.front().name, 0, 0, ""} : name->place, "no network", name == nullptr ? "no \"network =\" and " + std::to_string(std::ranges::count_if(types, is_network)) + " networks" : json::quote(wanted), "a network of the NED files");
+      error(name == nullptr ? json::Place{request_.files.front().name, 0, 0, ""} : name->place, "no network",
+            name == nullptr
+                ? "no \"network =\" and " + std::to_string(std::ranges::count_if(types, is_network)) + " networks"
+                : json::quote(wanted),
+            "a network of the NED files");
       return false;
     }
     network_ = std::move(*network);
@@ -94,7 +106,9 @@ class InetReader {
   }
   std::optional<sim::Octets> octets(const std::string& value, const json::Place& place) {
     const auto parsed = worked_out(value);
-    if (parsed && parsed->unit == Unit::octet && parsed->amount >= 0 && parsed->amount % ps_per_second == 0 && parsed->amount / ps_per_second <= 0xFFFF'FFFF) return sim::Octets{static_cast<std::uint32_t>(parsed->amount / ps_per_second)};
+    if (parsed && parsed->unit == Unit::octet && parsed->amount >= 0 && parsed->amount % ps_per_second == 0 &&
+        parsed->amount / ps_per_second <= 0xFFFF'FFFF)
+      return sim::Octets{static_cast<std::uint32_t>(parsed->amount / ps_per_second)};
     error(place, "not a length that is read", json::quote(value), "octets, such as 100B");
     return std::nullopt;
   }
@@ -120,12 +134,15 @@ class InetReader {
     const auto value = worked_out(found->value);
     const auto whole = value ? value->whole() : std::nullopt;
     if (whole && *whole >= 0 && static_cast<std::uint64_t>(*whole) <= most) return static_cast<std::uint64_t>(*whole);
-    error(found->place, "not a number that fits", json::quote(found->value), "a whole number up to " + std::to_string(most));
+    error(found->place, "not a number that fits", json::quote(found->value),
+          "a whole number up to " + std::to_string(most));
     return std::nullopt;
   }
   std::optional<Duration> duration(const std::string& value, const json::Place& place) {
     const auto parsed = worked_out(value);
-    if (parsed && parsed->kind == Value::Kind::number && parsed->unit == Unit::second && parsed->amount <= std::numeric_limits<std::int64_t>::max()) return Duration::from_ps(static_cast<std::int64_t>(parsed->amount));
+    if (parsed && parsed->kind == Value::Kind::number && parsed->unit == Unit::second &&
+        parsed->amount <= std::numeric_limits<std::int64_t>::max())
+      return Duration::from_ps(static_cast<std::int64_t>(parsed->amount));
     error(place, "not a time that is read", json::quote(value), "a number with a unit, such as 500us");
     return std::nullopt;
   }
@@ -135,7 +152,8 @@ class InetReader {
   }
   std::optional<sim::DataRate> rate(const std::string& value, const json::Place& place) {
     const auto parsed = worked_out(value);
-    if (parsed && parsed->unit == Unit::bit_per_second && parsed->amount > 0 && parsed->amount % ps_per_second == 0) return sim::DataRate{static_cast<std::uint64_t>(parsed->amount / ps_per_second)};
+    if (parsed && parsed->unit == Unit::bit_per_second && parsed->amount > 0 && parsed->amount % ps_per_second == 0)
+      return sim::DataRate{static_cast<std::uint64_t>(parsed->amount / ps_per_second)};
     error(place, "not a rate that is read", json::quote(value), "a number with a unit, such as 100Mbps");
     return std::nullopt;
   }
@@ -151,13 +169,17 @@ class InetReader {
   void read_general() {
     const IniLine* const limit = ini_.find_global("sim-time-limit");
     scenario_.duration = Duration::from_ps(100'000'000'000);
-    if (limit != nullptr) scenario_.duration = duration(limit->value, limit->place).value_or(scenario_.duration);
-    else imported_.remark(RemarkKind::odd, network_.place, "no sim-time-limit: 100 ms");
+    if (limit != nullptr)
+      scenario_.duration = duration(limit->value, limit->place).value_or(scenario_.duration);
+    else
+      imported_.remark(RemarkKind::odd, network_.place, "no sim-time-limit: 100 ms");
     if (const IniLine* const seed = ini_.find_global("seed-set")) {
       std::uint64_t number = 0;
       const auto [stop, failed] = std::from_chars(seed->value.data(), seed->value.data() + seed->value.size(), number);
-      if (failed == std::errc() && stop == seed->value.data() + seed->value.size() && number < 1u << 31) scenario_.seed = number;
-      else imported_.remark(RemarkKind::ignored, seed->place, "seed-set, which is no number");
+      if (failed == std::errc() && stop == seed->value.data() + seed->value.size() && number < 1u << 31)
+        scenario_.seed = number;
+      else
+        imported_.remark(RemarkKind::ignored, seed->place, "seed-set, which is no number");
     }
   }
 
@@ -165,12 +187,18 @@ class InetReader {
     for (const Submodule& node : network_.submodules) {
       if (is_no_node(node.type)) continue;
       if (node.type == "ScenarioManager") {
-        if (line(node.name + ".script") != nullptr) imported_.remark(RemarkKind::lost, node.place, "what a ScenarioManager changes during the run: write it as \"faults\" and \"script\"");
+        if (line(node.name + ".script") != nullptr)
+          imported_.remark(RemarkKind::lost, node.place,
+                           "what a ScenarioManager changes during the run: write it as \"faults\" and \"script\"");
         continue;
       }
-      if (node.type == "TsnDevice" || node.type == "StandardHost" || node.type == "TsnClock") scenario_.network.nodes.emplace_back(node.name, scenario::Node(scenario::HostNode{}));
-      else if (node.type == "TsnSwitch" || node.type == "EthernetSwitch") scenario_.network.nodes.emplace_back(node.name, scenario::Node(scenario::SwitchNode{}));
-      else error(node.place, "a type of node that is not read", json::quote(node.type), "TsnDevice, TsnSwitch, TsnClock, StandardHost or EthernetSwitch");
+      if (node.type == "TsnDevice" || node.type == "StandardHost" || node.type == "TsnClock")
+        scenario_.network.nodes.emplace_back(node.name, scenario::Node(scenario::HostNode{}));
+      else if (node.type == "TsnSwitch" || node.type == "EthernetSwitch")
+        scenario_.network.nodes.emplace_back(node.name, scenario::Node(scenario::SwitchNode{}));
+      else
+        error(node.place, "a type of node that is not read", json::quote(node.type),
+              "TsnDevice, TsnSwitch, TsnClock, StandardHost or EthernetSwitch");
     }
   }
 
@@ -183,27 +211,44 @@ class InetReader {
     for (const Connection& each : network_.connections) {
       scenario::Link link;
       for (const std::string* const end : {&each.a, &each.b})
-        if (std::ranges::none_of(network_.submodules, [&](const Submodule& node) { return node.name == *end; })) error(each.place, "an end that is no submodule", json::quote(*end), "a submodule of the network");
+        if (std::ranges::none_of(network_.submodules, [&](const Submodule& node) { return node.name == *end; }))
+          error(each.place, "an end that is no submodule", json::quote(*end), "a submodule of the network");
       link.ends = {each.a + ":" + std::to_string(each.a_eth), each.b + ":" + std::to_string(each.b_eth)};
       ports_[each.a][each.a_eth] = each.b;
       ports_[each.b][each.b_eth] = each.a;
       std::optional<sim::DataRate> chosen;
-      const std::map<std::string, std::uint64_t> channels = {{"Eth10M", 10'000'000}, {"Eth100M", 100'000'000}, {"Eth1G", 1'000'000'000}, {"Eth10G", 10'000'000'000}, {"Eth40G", 40'000'000'000}, {"Eth100G", 100'000'000'000}};
-      if (const auto channel = channels.find(each.channel); channel != channels.end()) chosen = sim::DataRate{channel->second};
-      else if (each.channel != "EthernetLink" && !each.channel.empty()) error(each.place, "a channel that is not read", json::quote(each.channel), "EthernetLink, Eth100M, Eth1G and the like");
+      const std::map<std::string, std::uint64_t> channels = {{"Eth10M", 10'000'000},     {"Eth100M", 100'000'000},
+                                                             {"Eth1G", 1'000'000'000},   {"Eth10G", 10'000'000'000},
+                                                             {"Eth40G", 40'000'000'000}, {"Eth100G", 100'000'000'000}};
+      if (const auto channel = channels.find(each.channel); channel != channels.end())
+        chosen = sim::DataRate{channel->second};
+      else if (each.channel != "EthernetLink" && !each.channel.empty())
+        error(each.place, "a channel that is not read", json::quote(each.channel),
+              "EthernetLink, Eth100M, Eth1G and the like");
       if (each.datarate) chosen = rate(*each.datarate, each.place);
       for (const auto& [node, eth] : {std::pair(each.a, each.a_eth), std::pair(each.b, each.b_eth)}) {
         const auto own = rate_of_end(node, eth);
-        if (own && chosen && !(*own == *chosen)) error(each.place, "two rates of one link", json::to_text(*own) + " at " + node + ", " + json::to_text(*chosen) + " elsewhere", "the same bitrate at both ends, and as datarate");
+        if (own && chosen && !(*own == *chosen))
+          error(each.place, "two rates of one link",
+                json::to_text(*own) + " at " + node + ", " + json::to_text(*chosen) + " elsewhere",
+                "the same bitrate at both ends, and as datarate");
         if (own) chosen = own;
       }
-      if (!chosen) { error(each.place, "a link without a rate", each.a + " to " + each.b, "datarate, or *.*.eth[*].bitrate in the ini file"); continue; }
+      if (!chosen) {
+        error(each.place, "a link without a rate", each.a + " to " + each.b,
+              "datarate, or *.*.eth[*].bitrate in the ini file");
+        continue;
+      }
       link.rate = *chosen;
-      if (each.delay) link.delay = duration(*each.delay, each.place);
+      if (each.delay)
+        link.delay = duration(*each.delay, each.place);
       else if (each.length) {
         const auto parsed = worked_out(*each.length);
-        if (parsed && parsed->unit == Unit::metre && parsed->amount >= 0 && parsed->amount % 1'000'000'000 == 0) link.length = sim::Length{static_cast<std::int64_t>(parsed->amount / 1'000'000'000)};
-        else error(each.place, "not a length that is read", json::quote(*each.length), "a number with a unit, such as 10m");
+        if (parsed && parsed->unit == Unit::metre && parsed->amount >= 0 && parsed->amount % 1'000'000'000 == 0)
+          link.length = sim::Length{static_cast<std::int64_t>(parsed->amount / 1'000'000'000)};
+        else
+          error(each.place, "not a length that is read", json::quote(*each.length),
+                "a number with a unit, such as 10m");
       }
       scenario_.network.links.push_back(std::move(link));
     }
@@ -215,12 +260,15 @@ class InetReader {
   void end_clocks();
   void read_schedule();
   void read_sources(const Submodule& node) {
-    const auto found = std::ranges::find(scenario_.network.nodes, node.name, [](const auto& each) -> const std::string& { return each.first; });
-    if (found != scenario_.network.nodes.end() && std::holds_alternative<scenario::HostNode>(found->second)) read_apps(node);
+    const auto found = std::ranges::find(scenario_.network.nodes, node.name,
+                                         [](const auto& each) -> const std::string& { return each.first; });
+    if (found != scenario_.network.nodes.end() && std::holds_alternative<scenario::HostNode>(found->second))
+      read_apps(node);
   }
 
   void read_node(const Submodule& node) {
-    auto found = std::ranges::find(scenario_.network.nodes, node.name, [](const auto& each) -> const std::string& { return each.first; });
+    auto found = std::ranges::find(scenario_.network.nodes, node.name,
+                                   [](const auto& each) -> const std::string& { return each.first; });
     if (found == scenario_.network.nodes.end()) return;
     const bool is_shaped = truth(node.name + ".hasEgressTrafficShaping");
     read_clock(node);
@@ -230,15 +278,22 @@ class InetReader {
       truth(node.name + ".hasOutgoingStreams");
       line(node.name + ".bridging.streamCoder.encoder.mapping");
     }
-    value(node.name + ".bridging.streamCoder.decoder.mapping", json::Kind::array, "[{pcp: N, stream: \"s\"}, ..]");   // takt's streams keep their names
+    value(node.name + ".bridging.streamCoder.decoder.mapping", json::Kind::array,
+          "[{pcp: N, stream: \"s\"}, ..]");  // takt's streams keep their names
     if (scenario::Relay* const relay = scenario::relay_of(found->second)) {
       const auto type = text(node.name + ".bridging.directionReverser.delayer.typename");
       const auto delay = duration(node.name + ".bridging.directionReverser.delayer.delay");
-      if (type && *type == "PacketDelayer" && delay) relay->forwarding_delay = *delay;
-      else if (type) error(line(node.name + ".bridging.directionReverser.delayer.typename")->place, "a delayer that is not read", json::quote(*type), "PacketDelayer with a delay");
+      if (type && *type == "PacketDelayer" && delay)
+        relay->forwarding_delay = *delay;
+      else if (type)
+        error(line(node.name + ".bridging.directionReverser.delayer.typename")->place, "a delayer that is not read",
+              json::quote(*type), "PacketDelayer with a delay");
     }
-    if (scenario::Relay* const relay = scenario::relay_of(found->second); relay != nullptr && truth(node.name + ".hasIngressTrafficFiltering")) read_filters(node, *relay);
-    for (const auto& [eth, peer] : ports_[node.name]) read_port(node, eth, peer, is_shaped, scenario::ports_of(found->second));
+    if (scenario::Relay* const relay = scenario::relay_of(found->second);
+        relay != nullptr && truth(node.name + ".hasIngressTrafficFiltering"))
+      read_filters(node, *relay);
+    for (const auto& [eth, peer] : ports_[node.name])
+      read_port(node, eth, peer, is_shaped, scenario::ports_of(found->second));
   }
 
   /// Meters by streams: token buckets that drop, or those of asynchronous shaping.
@@ -272,7 +327,8 @@ class InetReader {
   void read_redundancy();
   void add_redundant();
 
-  void read_port(const Submodule& node, std::uint32_t eth, const std::string& peer, bool is_shaped, scenario::NodePorts& ports);
+  void read_port(const Submodule& node, std::uint32_t eth, const std::string& peer, bool is_shaped,
+                 scenario::NodePorts& ports);
 
   /// The priorities of a class, of so many, as classes of takt, which has one for each priority.
   static std::vector<std::uint8_t> classes_of(std::size_t q, std::size_t count);
@@ -283,19 +339,27 @@ class InetReader {
 
   void read_limits(const std::string& queue, std::uint8_t q, scenario::NodePorts& ports);
 
-  /// One list for a port of eight: the least common cycle, and an entry at each change; the lists are in force from 0 on.
+  /// One list for a port of eight: the least common cycle, and an entry at each change; the lists are in force from 0
+  /// on.
   void read_gates(const std::string& queue, std::size_t count, scenario::Egress& egress);
 
   void refuse_the_rest() {
-    constexpr std::string_view of_no_account[] = {"record", "isualiz", "display", "description", "result-dir", "cmdenv", "qtenv", "vector", "scalar", "statistic", "debug", "eventlog", "print", "abstract", "packetNameFormat", "simtime-resolution", "clockModule", "interfaceName"};
+    constexpr std::string_view of_no_account[] = {
+        "record", "isualiz",  "display",          "description",        "result-dir",  "cmdenv",
+        "qtenv",  "vector",   "scalar",           "statistic",          "debug",       "eventlog",
+        "print",  "abstract", "packetNameFormat", "simtime-resolution", "clockModule", "interfaceName"};
     for (const IniLine& each : ini_.lines()) {
       if (each.is_used) continue;
       if (each.is_of_ned) {
         imported_.remark(RemarkKind::ignored, each.place, each.key);
         continue;
       }
-      if (std::ranges::any_of(of_no_account, [&](std::string_view word) { return each.key.find(word) != std::string::npos; })) imported_.remark(RemarkKind::ignored, each.place, each.key);
-      else error(each.place, "a setting that is not understood, or matches nothing", json::quote(each.key), "what docs/interchange.md lists");
+      if (std::ranges::any_of(of_no_account,
+                              [&](std::string_view word) { return each.key.find(word) != std::string::npos; }))
+        imported_.remark(RemarkKind::ignored, each.place, each.key);
+      else
+        error(each.place, "a setting that is not understood, or matches nothing", json::quote(each.key),
+              "what docs/interchange.md lists");
     }
   }
 
@@ -305,11 +369,12 @@ class InetReader {
   Ini ini_;
   Network network_;
   scenario::Scenario scenario_;
-  std::map<std::string, std::map<std::uint32_t, std::string>> ports_;   // by node: its interfaces and the neighbours at them
-  std::set<std::string> synchronised_;                                  // nodes with gPTP
-  std::map<std::string, std::string> identity_of_stream_;               // what INET calls it
+  std::map<std::string, std::map<std::uint32_t, std::string>>
+      ports_;                                              // by node: its interfaces and the neighbours at them
+  std::set<std::string> synchronised_;                     // nodes with gPTP
+  std::map<std::string, std::string> identity_of_stream_;  // what INET calls it
   std::map<std::string, std::uint64_t> port_of_stream_;
-  std::map<std::uint64_t, Redundant> redundant_;                        // by UDP port
+  std::map<std::uint64_t, Redundant> redundant_;  // by UDP port
 };
 
 }  // namespace takt::interchange::inet

@@ -11,25 +11,56 @@ namespace {
 constexpr double any = 2147483647;
 
 constexpr Key all_keys[] = {
-    {"logSyncInterval", ValueKind::whole, -128, 127, [](Target& t, double v, const std::string&) { t.gptp.log_sync_interval = static_cast<std::int8_t>(v); }},
-    {"logAnnounceInterval", ValueKind::whole, -128, 127, [](Target& t, double v, const std::string&) { t.gptp.log_announce_interval = static_cast<std::int8_t>(v); }},
-    {"logMinPdelayReqInterval", ValueKind::whole, -128, 127, [](Target& t, double v, const std::string&) { t.gptp.log_pdelay_interval = static_cast<std::int8_t>(v); }},
-    {"syncReceiptTimeout", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.gptp.sync_receipt_timeout = static_cast<std::uint8_t>(v); }},
-    {"announceReceiptTimeout", ValueKind::whole, 2, 255, [](Target& t, double v, const std::string&) { t.gptp.announce_receipt_timeout = static_cast<std::uint8_t>(v); }},
-    {"neighborPropDelayThresh", ValueKind::whole, 0, any, [](Target& t, double v, const std::string&) { t.gptp.link_delay_threshold = sim::Duration::from_ps(static_cast<std::int64_t>(v) * 1000); }},
-    {"priority1", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.priority1 = static_cast<std::uint8_t>(v); }},
-    {"priority2", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.priority2 = static_cast<std::uint8_t>(v); }},
-    {"clockClass", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.clock_class = static_cast<std::uint8_t>(v); }},
-    {"clockAccuracy", ValueKind::whole, 0, 255, [](Target& t, double v, const std::string&) { t.node.clock_accuracy = static_cast<std::uint8_t>(v); }},
-    {"gmCapable", ValueKind::whole, 0, 1, [](Target& t, double v, const std::string&) { t.never_grandmaster = v == 0; }},
+    {"logSyncInterval", ValueKind::whole, -128, 127,
+     [](Target& t, double v, const std::string&) { t.gptp.log_sync_interval = static_cast<std::int8_t>(v); }},
+    {"logAnnounceInterval", ValueKind::whole, -128, 127,
+     [](Target& t, double v, const std::string&) { t.gptp.log_announce_interval = static_cast<std::int8_t>(v); }},
+    {"logMinPdelayReqInterval", ValueKind::whole, -128, 127,
+     [](Target& t, double v, const std::string&) { t.gptp.log_pdelay_interval = static_cast<std::int8_t>(v); }},
+    {"syncReceiptTimeout", ValueKind::whole, 0, 255,
+     [](Target& t, double v, const std::string&) { t.gptp.sync_receipt_timeout = static_cast<std::uint8_t>(v); }},
+    {"announceReceiptTimeout", ValueKind::whole, 2, 255,
+     [](Target& t, double v, const std::string&) { t.gptp.announce_receipt_timeout = static_cast<std::uint8_t>(v); }},
+    {"neighborPropDelayThresh", ValueKind::whole, 0, any,
+     [](Target& t, double v, const std::string&) {
+       t.gptp.link_delay_threshold = sim::Duration::from_ps(static_cast<std::int64_t>(v) * 1000);
+     }},
+    {"priority1", ValueKind::whole, 0, 255,
+     [](Target& t, double v, const std::string&) { t.node.priority1 = static_cast<std::uint8_t>(v); }},
+    {"priority2", ValueKind::whole, 0, 255,
+     [](Target& t, double v, const std::string&) { t.node.priority2 = static_cast<std::uint8_t>(v); }},
+    {"clockClass", ValueKind::whole, 0, 255,
+     [](Target& t, double v, const std::string&) { t.node.clock_class = static_cast<std::uint8_t>(v); }},
+    {"clockAccuracy", ValueKind::whole, 0, 255,
+     [](Target& t, double v, const std::string&) { t.node.clock_accuracy = static_cast<std::uint8_t>(v); }},
+    {"gmCapable", ValueKind::whole, 0, 1,
+     [](Target& t, double v, const std::string&) { t.never_grandmaster = v == 0; }},
     {"slaveOnly", ValueKind::whole, 0, 1, [](Target& t, double v, const std::string&) { t.receiver_only = v != 0; }},
     {"twoStepFlag", ValueKind::whole, 0, 1, [](Target& t, double v, const std::string&) { t.gptp.one_step = v == 0; }},
-    {"clock_servo", ValueKind::text, 0, 0, [](Target& t, double, const std::string&) { t.gptp.servo.algorithm = scenario::ServoAlgorithm::pi; }},
-    {"first_step_threshold", ValueKind::real, 0, 1e9, [](Target& t, double v, const std::string&) { t.gptp.servo.first_step_threshold = sim::Duration::from_ps(std::llround(v * 1e12)); }},
-    {"step_threshold", ValueKind::real, 0, 1e9, [](Target& t, double v, const std::string&) { t.gptp.servo.step_threshold = sim::Duration::from_ps(std::llround(v * 1e12)); }},
-    {"max_frequency", ValueKind::whole, 0, any, [](Target& t, double v, const std::string&) { t.gptp.servo.max_frequency = {static_cast<std::int64_t>(v) * 1000}; }},
-    {"egressLatency", ValueKind::whole, -any, any, [](Target& t, double v, const std::string&) { t.clock.tx_correction = sim::Duration::from_ps(static_cast<std::int64_t>(v) * 1000); t.has_clock = true; }},
-    {"ingressLatency", ValueKind::whole, -any, any, [](Target& t, double v, const std::string&) { t.clock.rx_correction = sim::Duration::from_ps(static_cast<std::int64_t>(v) * 1000); t.has_clock = true; }},
+    {"clock_servo", ValueKind::text, 0, 0,
+     [](Target& t, double, const std::string&) { t.gptp.servo.algorithm = scenario::ServoAlgorithm::pi; }},
+    {"first_step_threshold", ValueKind::real, 0, 1e9,
+     [](Target& t, double v, const std::string&) {
+       t.gptp.servo.first_step_threshold = sim::Duration::from_ps(std::llround(v * 1e12));
+     }},
+    {"step_threshold", ValueKind::real, 0, 1e9,
+     [](Target& t, double v, const std::string&) {
+       t.gptp.servo.step_threshold = sim::Duration::from_ps(std::llround(v * 1e12));
+     }},
+    {"max_frequency", ValueKind::whole, 0, any,
+     [](Target& t, double v, const std::string&) {
+       t.gptp.servo.max_frequency = {static_cast<std::int64_t>(v) * 1000};
+     }},
+    {"egressLatency", ValueKind::whole, -any, any,
+     [](Target& t, double v, const std::string&) {
+       t.clock.tx_correction = sim::Duration::from_ps(static_cast<std::int64_t>(v) * 1000);
+       t.has_clock = true;
+     }},
+    {"ingressLatency", ValueKind::whole, -any, any,
+     [](Target& t, double v, const std::string&) {
+       t.clock.rx_correction = sim::Duration::from_ps(static_cast<std::int64_t>(v) * 1000);
+       t.has_clock = true;
+     }},
     {"transportSpecific", ValueKind::whole, 0, 15, [](Target& t, double v, const std::string&) { t.is_gptp = v == 1; }},
     // What the reader judges, what takt does in one way alone, and what changes no message and no clock.
     {"domainNumber", ValueKind::whole, 0, 127, nullptr, "", ""},
@@ -38,31 +69,46 @@ constexpr Key all_keys[] = {
     {"masterOnly", ValueKind::whole, 0, 1, nullptr, "", ""},
     {"BMCA", ValueKind::text, 0, 0, nullptr, "", ""},
     {"offsetScaledLogVariance", ValueKind::whole, 0, 65535, nullptr, "", ""},
-    {"min_neighbor_prop_delay", ValueKind::whole, -any, any, nullptr, "-20000000", "a least link delay of ports that are capable"},
+    {"min_neighbor_prop_delay", ValueKind::whole, -any, any, nullptr, "-20000000",
+     "a least link delay of ports that are capable"},
     {"path_trace_enabled", ValueKind::whole, 0, 1, nullptr, "1", "Announce without path trace, which takt's has"},
     {"follow_up_info", ValueKind::whole, 0, 1, nullptr, "1", "Follow_Up without its information TLV, which takt's has"},
-    {"ptp_dst_mac", ValueKind::text, 0, 0, nullptr, "01:80:C2:00:00:0E|01:1B:19:00:00:00", "another address of the messages"},
+    {"ptp_dst_mac", ValueKind::text, 0, 0, nullptr, "01:80:C2:00:00:0E|01:1B:19:00:00:00",
+     "another address of the messages"},
     {"p2p_dst_mac", ValueKind::text, 0, 0, nullptr, "01:80:C2:00:00:0E", "another address of the messages"},
-    {"pi_proportional_const", ValueKind::real, 0, any, nullptr, "0", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
-    {"pi_integral_const", ValueKind::real, 0, any, nullptr, "0", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
-    {"pi_proportional_scale", ValueKind::real, 0, any, nullptr, "0", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
-    {"pi_proportional_exponent", ValueKind::real, -any, any, nullptr, "-0.3", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
-    {"pi_proportional_norm_max", ValueKind::real, 0, 1, nullptr, "0.7", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
-    {"pi_integral_scale", ValueKind::real, 0, any, nullptr, "0", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
-    {"pi_integral_exponent", ValueKind::real, -any, any, nullptr, "0.4", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
-    {"pi_integral_norm_max", ValueKind::real, 0, 2, nullptr, "0.3", "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_proportional_const", ValueKind::real, 0, any, nullptr, "0",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_integral_const", ValueKind::real, 0, any, nullptr, "0",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_proportional_scale", ValueKind::real, 0, any, nullptr, "0",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_proportional_exponent", ValueKind::real, -any, any, nullptr, "-0.3",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_proportional_norm_max", ValueKind::real, 0, 1, nullptr, "0.7",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_integral_scale", ValueKind::real, 0, any, nullptr, "0",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_integral_exponent", ValueKind::real, -any, any, nullptr, "0.4",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
+    {"pi_integral_norm_max", ValueKind::real, 0, 2, nullptr, "0.3",
+     "other constants of the servo than those that linuxptp takes by default, which are takt's"},
     {"inhibit_announce", ValueKind::whole, 0, 1, nullptr, "0", "ports that send no Announce"},
     {"inhibit_delay_req", ValueKind::whole, 0, 1, nullptr, "0", "ports that do not ask for the delay"},
     {"inhibit_multicast_service", ValueKind::whole, 0, 1, nullptr, "0", "ports without multicast messages"},
-    {"asCapable", ValueKind::text, 0, 0, nullptr, "auto", "ports that are capable whatever is measured (asCapable true)"},
+    {"asCapable", ValueKind::text, 0, 0, nullptr, "auto",
+     "ports that are capable whatever is measured (asCapable true)"},
     {"ignore_source_id", ValueKind::whole, 0, 1, nullptr, "0", "messages that are taken from whatever source"},
     {"ignore_transport_specific", ValueKind::whole, 0, 1, nullptr, "0", "messages of whatever profile"},
-    {"time_stamping", ValueKind::text, 0, 0, nullptr, "hardware|onestep|p2p1step", "time stamps that are not taken at the wire: takt's are"},
-    {"free_running", ValueKind::whole, 0, 1, nullptr, "0", "a clock that is measured and not adjusted (free_running): takt's servo adjusts it"},
-    {"freq_est_interval", ValueKind::whole, 0, any, nullptr, "1", "how long the frequency is estimated before the servo locks"},
+    {"time_stamping", ValueKind::text, 0, 0, nullptr, "hardware|onestep|p2p1step",
+     "time stamps that are not taken at the wire: takt's are"},
+    {"free_running", ValueKind::whole, 0, 1, nullptr, "0",
+     "a clock that is measured and not adjusted (free_running): takt's servo adjusts it"},
+    {"freq_est_interval", ValueKind::whole, 0, any, nullptr, "1",
+     "how long the frequency is estimated before the servo locks"},
     {"fault_reset_interval", ValueKind::text, 0, 0, nullptr, "4|ASAP", "how long a port rests after a fault"},
     {"fault_badpeernet_interval", ValueKind::text, 0, 0, nullptr, "16|ASAP", "how long a port rests after a fault"},
-    {"delayAsymmetry", ValueKind::whole, -any, any, nullptr, "0", "a link that is slower in one direction: takt's links are alike in both"},
+    {"delayAsymmetry", ValueKind::whole, -any, any, nullptr, "0",
+     "a link that is slower in one direction: takt's links are alike in both"},
     {"delay_filter", ValueKind::text, 0, 0, nullptr, "moving_median", "how link delays are filtered"},
     {"delay_filter_length", ValueKind::whole, 1, any, nullptr, "10", "how link delays are filtered"},
     {"dataset_comparison", ValueKind::text, 0, 0, nullptr, "ieee1588", "another comparison of clocks (G.8275)"},
@@ -70,19 +116,24 @@ constexpr Key all_keys[] = {
     {"G.8275.portDS.localPriority", ValueKind::whole, 1, 255, nullptr, "128", "a local priority"},
     {"maxStepsRemoved", ValueKind::whole, 2, 255, nullptr, "255", "the longest way from the grandmaster"},
     {"operLogSyncInterval", ValueKind::whole, -128, 127, nullptr, "0", "another interval once a port is synchronised"},
-    {"operLogPdelayReqInterval", ValueKind::whole, -128, 127, nullptr, "0", "another interval once a port is synchronised"},
+    {"operLogPdelayReqInterval", ValueKind::whole, -128, 127, nullptr, "0",
+     "another interval once a port is synchronised"},
     {"msg_interval_request", ValueKind::whole, 0, 1, nullptr, "0", "intervals that a neighbour asks for"},
     {"hybrid_e2e", ValueKind::whole, 0, 1, nullptr, "0", "delays measured end to end"},
     {"net_sync_monitor", ValueKind::whole, 0, 1, nullptr, "0", "the monitor of a network's time"},
     {"tc_spanning_tree", ValueKind::whole, 0, 1, nullptr, "0", "a transparent clock"},
-    {"clock_type", ValueKind::text, 0, 0, nullptr, "OC|BC", "a transparent clock, or none: takt's are ordinary clocks and relays"},
-    {"sanity_freq_limit", ValueKind::whole, 0, any, nullptr, "200000000|0", "a frequency beyond which the servo begins anew"},
-    {"clockIdentity", ValueKind::text, 0, 0, nullptr, "000000.0000.000000", "the identity of the clock, by which equal clocks are told apart: takt does it by the order of nodes"},
+    {"clock_type", ValueKind::text, 0, 0, nullptr, "OC|BC",
+     "a transparent clock, or none: takt's are ordinary clocks and relays"},
+    {"sanity_freq_limit", ValueKind::whole, 0, any, nullptr, "200000000|0",
+     "a frequency beyond which the servo begins anew"},
+    {"clockIdentity", ValueKind::text, 0, 0, nullptr, "000000.0000.000000",
+     "the identity of the clock, by which equal clocks are told apart: takt does it by the order of nodes"},
     {"tsproc_mode", ValueKind::text, 0, 0, nullptr, "filter", "how time stamps are processed"},
     {"unicast_listen", ValueKind::whole, 0, 1, nullptr, "0", "unicast messages"},
     {"unicast_master_table", ValueKind::whole, 0, any, nullptr, "0", "unicast messages"},
     {"unicast_req_duration", ValueKind::whole, 10, any, nullptr, "3600", "unicast messages"},
-    {"allowedLostResponses", ValueKind::whole, 1, 255, nullptr, "3|9", "after how many lost answers a port is not capable"},
+    {"allowedLostResponses", ValueKind::whole, 1, 255, nullptr, "3|9",
+     "after how many lost answers a port is not capable"},
     {"boundary_clock_jbod", ValueKind::whole, 0, 1, nullptr, "0|1", ""},
     {"step_window", ValueKind::whole, 0, any, nullptr, "0", "a window after a step"},
     {"inhibit_pps", ValueKind::whole, 0, any, nullptr, "", ""},
@@ -148,7 +199,8 @@ constexpr Key all_keys[] = {
     {"hash_name", ValueKind::text, 0, 0},
 };
 
-constexpr std::pair<std::string_view, std::string_view> renamed[] = {{"serverOnly", "masterOnly"}, {"clientOnly", "slaveOnly"}, {"client_event_monitor", "slave_event_monitor"}};
+constexpr std::pair<std::string_view, std::string_view> renamed[] = {
+    {"serverOnly", "masterOnly"}, {"clientOnly", "slaveOnly"}, {"client_event_monitor", "slave_event_monitor"}};
 
 }  // namespace
 
@@ -160,7 +212,10 @@ std::string_view ptp4l_key(std::string_view name) {
 }
 
 bool is_usual(const Key& key, double value, std::string_view text) {
-  const auto same_text = [&](std::string_view usual) { return std::ranges::equal(usual, text, [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); }); };
+  const auto same_text = [&](std::string_view usual) {
+    return std::ranges::equal(usual, text,
+                              [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+  };
   std::string_view rest = key.usual;
   while (true) {
     const std::size_t bar = rest.find('|');

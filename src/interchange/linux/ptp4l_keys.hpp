@@ -26,9 +26,9 @@ struct Key {
   std::string_view name;
   ValueKind kind = ValueKind::whole;
   double least = 0, most = 0;
-  void (*set)(Target& target, double value, const std::string& text) = nullptr;   ///< null: has no meaning in takt
-  std::string_view usual = {};    ///< of a key without `set`: the values with which takt does the same, "0|1"
-  std::string_view otherwise = {};    ///< and what is lost with another; empty: the key changes no message and no clock
+  void (*set)(Target& target, double value, const std::string& text) = nullptr;  ///< null: has no meaning in takt
+  std::string_view usual = {};      ///< of a key without `set`: the values with which takt does the same, "0|1"
+  std::string_view otherwise = {};  ///< and what is lost with another; empty: the key changes no message and no clock
 };
 
 std::span<const Key> ptp4l_keys();

@@ -12,7 +12,10 @@ constexpr std::uint32_t deepest_shell = 64;
 
 class ShellParser {
  public:
-  ShellParser(std::string_view text, const std::string& file, json::Diagnostics& diagnostics) : lexer_(text, file), diagnostics_(diagnostics) { step(); }
+  ShellParser(std::string_view text, const std::string& file, json::Diagnostics& diagnostics)
+      : lexer_(text, file), diagnostics_(diagnostics) {
+    step();
+  }
 
   ShellNode run() {
     ShellNode all = sequence({});
@@ -28,7 +31,9 @@ class ShellParser {
 
   void step() { token_ = lexer_.next(); }
   bool is_sign(std::string_view sign) const { return token_.kind == ShellToken::Kind::sign && token_.sign == sign; }
-  bool is_word(std::string_view text) const { return token_.kind == ShellToken::Kind::word && token_.word.plain() == text; }
+  bool is_word(std::string_view text) const {
+    return token_.kind == ShellToken::Kind::word && token_.word.plain() == text;
+  }
   bool is_line() const { return token_.kind == ShellToken::Kind::line; }
   void skip_lines() {
     while (is_line() || is_sign(";")) step();
@@ -36,13 +41,18 @@ class ShellParser {
   void fail(const std::string& what) {
     if (failed_) return;
     failed_ = true;
-    const std::string found = token_.kind == ShellToken::Kind::word ? token_.word.source : token_.kind == ShellToken::Kind::sign ? token_.sign : is_line() ? "the end of the line" : "the end of the file";
+    const std::string found = token_.kind == ShellToken::Kind::word   ? token_.word.source
+                              : token_.kind == ShellToken::Kind::sign ? token_.sign
+                              : is_line()                             ? "the end of the line"
+                                                                      : "the end of the file";
     diagnostics_.error(token_.place, what, {json::quote(found), "what a shell understands"});
   }
   void expect(std::string_view word) {
     skip_lines();
-    if (is_word(word)) step();
-    else fail("no \"" + std::string(word) + "\"");
+    if (is_word(word))
+      step();
+    else
+      fail("no \"" + std::string(word) + "\"");
   }
 
   ShellNode sequence(std::initializer_list<std::string_view> ends) {
@@ -72,7 +82,8 @@ class ShellParser {
   }
   static ShellNode* last_of(ShellNode& node) {
     ShellNode* at = &node;
-    while (at->kind != Kind::simple && !at->parts.empty()) at = at->kind == Kind::pipe ? &at->parts.front() : &at->parts.back();
+    while (at->kind != Kind::simple && !at->parts.empty())
+      at = at->kind == Kind::pipe ? &at->parts.front() : &at->parts.back();
     return at->kind == Kind::simple ? at : nullptr;
   }
 
@@ -125,8 +136,10 @@ class ShellParser {
     if (is_sign("(")) {
       step();
       node = sequence({});
-      if (is_sign(")")) step_past_block();
-      else fail("a parenthesis that does not close");
+      if (is_sign(")"))
+        step_past_block();
+      else
+        fail("a parenthesis that does not close");
       return node;
     }
     if (token_.kind != ShellToken::Kind::word) {
@@ -148,14 +161,17 @@ class ShellParser {
   }
 
   void step_past_block() {
-    while (lexer_.skip_redirection()) {}
+    while (lexer_.skip_redirection()) {
+    }
     step();
   }
   ShellNode block() {
     step();
     ShellNode node = sequence({"}"});
-    if (is_word("}")) step_past_block();
-    else fail("a brace that does not close");
+    if (is_word("}"))
+      step_past_block();
+    else
+      fail("a brace that does not close");
     return node;
   }
 
@@ -176,8 +192,10 @@ class ShellParser {
         step();
         node.parts.push_back(sequence({"fi"}));
       }
-      if (is_word("fi")) step_past_block();
-      else fail("no \"fi\"");
+      if (is_word("fi"))
+        step_past_block();
+      else
+        fail("no \"fi\"");
       break;
     }
     return node;
@@ -200,12 +218,15 @@ class ShellParser {
       while (is_line()) step();
       if (is_word("in"))
         for (step(); token_.kind == ShellToken::Kind::word && !failed_; step()) node.words.push_back(token_.word);
-      else node.words.push_back({{{ShellPiece::Kind::variable, "@", true}}, node.place, "\"$@\""});
+      else
+        node.words.push_back({{{ShellPiece::Kind::variable, "@", true}}, node.place, "\"$@\""});
     }
     expect("do");
     node.parts.push_back(sequence({"done"}));
-    if (is_word("done")) step_past_block();
-    else fail("no \"done\"");
+    if (is_word("done"))
+      step_past_block();
+    else
+      fail("no \"done\"");
     return node;
   }
 
@@ -217,8 +238,10 @@ class ShellParser {
     node.parts.push_back(sequence({"do"}));
     expect("do");
     node.parts.push_back(sequence({"done"}));
-    if (is_word("done")) step_past_block();
-    else fail("no \"done\"");
+    if (is_word("done"))
+      step_past_block();
+    else
+      fail("no \"done\"");
     return node;
   }
 
@@ -241,8 +264,10 @@ class ShellParser {
       node.parts.push_back(sequence({"esac"}));
       if (is_sign(";;")) step();
     }
-    if (is_word("esac")) step_past_block();
-    else fail("no \"esac\"");
+    if (is_word("esac"))
+      step_past_block();
+    else
+      fail("no \"esac\"");
     return node;
   }
 
@@ -265,8 +290,10 @@ class ShellParser {
     ShellNode node;
     node.place = token_.place;
     while (token_.kind != ShellToken::Kind::end && !is_line()) {
-      if (token_.kind == ShellToken::Kind::word) node.words.push_back(token_.word);
-      else node.words.push_back({{{ShellPiece::Kind::text, token_.sign, true}}, token_.place, token_.sign});
+      if (token_.kind == ShellToken::Kind::word)
+        node.words.push_back(token_.word);
+      else
+        node.words.push_back({{{ShellPiece::Kind::text, token_.sign, true}}, token_.place, token_.sign});
       const bool is_last = is_word("]]");
       step();
       if (is_last) break;
@@ -279,21 +306,24 @@ class ShellParser {
     node.place = token_.place;
     while (token_.kind == ShellToken::Kind::word && !failed_) {
       node.words.push_back(token_.word);
-      while (lexer_.skip_redirection()) {}
+      while (lexer_.skip_redirection()) {
+      }
       step();
-      if (node.words.size() == 1 && is_sign("(") && node.words[0].pieces.size() == 1) {   // name() { ... }
+      if (node.words.size() == 1 && is_sign("(") && node.words[0].pieces.size() == 1) {  // name() { ... }
         ShellNode made;
         made.kind = Kind::function;
         made.place = node.place;
         made.name = node.words[0].source;
         step();
-        if (is_sign(")")) step();
-        else fail("parentheses behind a word that are no function");
+        if (is_sign(")"))
+          step();
+        else
+          fail("parentheses behind a word that are no function");
         while (is_line()) step();
         made.parts.push_back(command());
         return made;
       }
-      if (node.words.size() == 1 && node.words[0].source.ends_with('=') && is_sign("(")) {   // NAME=( ... ): an array
+      if (node.words.size() == 1 && node.words[0].source.ends_with('=') && is_sign("(")) {  // NAME=( ... ): an array
         for (step(); !is_sign(")") && token_.kind != ShellToken::Kind::end; step())
           if (token_.kind == ShellToken::Kind::word) node.words.push_back(token_.word);
         step();
@@ -312,6 +342,8 @@ class ShellParser {
 
 }  // namespace
 
-ShellNode parse_shell(std::string_view text, const std::string& file, json::Diagnostics& diagnostics) { return ShellParser(text, file, diagnostics).run(); }
+ShellNode parse_shell(std::string_view text, const std::string& file, json::Diagnostics& diagnostics) {
+  return ShellParser(text, file, diagnostics).run();
+}
 
 }  // namespace takt::interchange::linux_tc

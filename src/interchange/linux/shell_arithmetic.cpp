@@ -31,19 +31,27 @@ class Arithmetic {
   }
   std::int64_t combined(char sign, std::int64_t a, std::int64_t b) {
     std::int64_t out = 0;
-    if (sign == '+') sound_ = sound_ && !__builtin_add_overflow(a, b, &out);
-    else if (sign == '-') sound_ = sound_ && !__builtin_sub_overflow(a, b, &out);
-    else if (sign == '*') sound_ = sound_ && !__builtin_mul_overflow(a, b, &out);
-    else if (b == 0 || b == -1) sound_ = false;
-    else out = sign == '/' ? a / b : a % b;
+    if (sign == '+')
+      sound_ = sound_ && !__builtin_add_overflow(a, b, &out);
+    else if (sign == '-')
+      sound_ = sound_ && !__builtin_sub_overflow(a, b, &out);
+    else if (sign == '*')
+      sound_ = sound_ && !__builtin_mul_overflow(a, b, &out);
+    else if (b == 0 || b == -1)
+      sound_ = false;
+    else
+      out = sign == '/' ? a / b : a % b;
     return out;
   }
   std::int64_t read_sum() {
     std::int64_t sum = read_product();
     while (true) {
-      if (take('+')) sum = combined('+', sum, read_product());
-      else if (take('-')) sum = combined('-', sum, read_product());
-      else return sum;
+      if (take('+'))
+        sum = combined('+', sum, read_product());
+      else if (take('-'))
+        sum = combined('-', sum, read_product());
+      else
+        return sum;
     }
   }
   std::int64_t read_product() {
@@ -69,14 +77,19 @@ class Arithmetic {
     --depth_;
     skip();
     std::size_t end = at_;
-    while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_' || text_[end] == '$' || text_[end] == '{' || text_[end] == '}')) ++end;
+    while (end < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[end])) != 0 || text_[end] == '_' ||
+                                  text_[end] == '$' || text_[end] == '{' || text_[end] == '}'))
+      ++end;
     std::string word(text_.substr(at_, end - at_));
     at_ = end;
     std::erase_if(word, [](char c) { return c == '$' || c == '{' || c == '}'; });
     if (!word.empty() && (word[0] < '0' || word[0] > '9')) word = lookup_(word);
     int base = 10;
     std::string_view digits = word;
-    if (digits.starts_with("0x") || digits.starts_with("0X")) { digits.remove_prefix(2); base = 16; }
+    if (digits.starts_with("0x") || digits.starts_with("0X")) {
+      digits.remove_prefix(2);
+      base = 16;
+    }
     std::int64_t number = 0;
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number, base);
     sound_ = sound_ && !digits.empty() && error == std::errc() && stop == digits.data() + digits.size();
@@ -92,6 +105,9 @@ class Arithmetic {
 
 }  // namespace
 
-std::optional<std::int64_t> shell_arithmetic(std::string_view text, const std::function<std::string(const std::string&)>& lookup) { return Arithmetic(text, lookup).value(); }
+std::optional<std::int64_t> shell_arithmetic(std::string_view text,
+                                             const std::function<std::string(const std::string&)>& lookup) {
+  return Arithmetic(text, lookup).value();
+}
 
 }  // namespace takt::interchange::linux_tc

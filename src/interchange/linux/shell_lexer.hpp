@@ -12,7 +12,7 @@ struct ShellToken {
   enum class Kind : std::uint8_t { word, sign, line, end };
   Kind kind = Kind::end;
   ShellWord word;
-  std::string sign;            ///< "&&", ";", "(" ...
+  std::string sign;  ///< "&&", ";", "(" ...
   json::Place place;
 };
 
@@ -97,19 +97,27 @@ class ShellLexer {
   std::string_view rest() const { return text_.substr(std::min(at_, text_.size())); }
   void advance(std::size_t count = 1) {
     for (; count > 0 && !at_end(); --count, ++at_) {
-      if (text_[at_] == '\n') { ++line_; column_ = 1; }
-      else ++column_;
+      if (text_[at_] == '\n') {
+        ++line_;
+        column_ = 1;
+      } else
+        ++column_;
     }
   }
   bool is_redirection_with_ampersand() const { return rest().starts_with("&>"); }
 
   void skip_blanks() {
     while (!at_end()) {
-      if (peek() == ' ' || peek() == '\t' || peek() == '\r') advance();
-      else if (peek() == '\\' && peek(1) == '\n') advance(2);
-      else if (peek() == '\\' && peek(1) == '\r' && peek(2) == '\n') advance(3);
-      else if (peek() == '#') while (!at_end() && peek() != '\n') advance();
-      else break;
+      if (peek() == ' ' || peek() == '\t' || peek() == '\r')
+        advance();
+      else if (peek() == '\\' && peek(1) == '\n')
+        advance(2);
+      else if (peek() == '\\' && peek(1) == '\r' && peek(2) == '\n')
+        advance(3);
+      else if (peek() == '#')
+        while (!at_end() && peek() != '\n') advance();
+      else
+        break;
     }
   }
 
@@ -137,8 +145,14 @@ class ShellLexer {
     while (!at_end() && std::string_view(" \t\r\n;&|()<>").find(peek()) == std::string_view::npos) {
       const char c = peek();
       if (c == '\\') {
-        if (peek(1) == '\n') { advance(2); continue; }
-        if (peek(1) == '\r' && peek(2) == '\n') { advance(3); continue; }
+        if (peek(1) == '\n') {
+          advance(2);
+          continue;
+        }
+        if (peek(1) == '\r' && peek(2) == '\n') {
+          advance(3);
+          continue;
+        }
         add(word, {ShellPiece::Kind::text, std::string(1, peek(1)), true});
         advance(2);
       } else if (c == '\'') {
@@ -155,13 +169,16 @@ class ShellLexer {
       }
     }
     word.source = std::string(text_.substr(first, at_ - first));
-    if (at_ == first) advance();   // a sign that cannot begin a word: "<" of a process
+    if (at_ == first) advance();  // a sign that cannot begin a word: "<" of a process
     return word;
   }
 
   static void add(ShellWord& word, ShellPiece piece) {
-    if (piece.kind == ShellPiece::Kind::text && !word.pieces.empty() && word.pieces.back().kind == piece.kind && word.pieces.back().is_quoted == piece.is_quoted) word.pieces.back().text += piece.text;
-    else word.pieces.push_back(std::move(piece));
+    if (piece.kind == ShellPiece::Kind::text && !word.pieces.empty() && word.pieces.back().kind == piece.kind &&
+        word.pieces.back().is_quoted == piece.is_quoted)
+      word.pieces.back().text += piece.text;
+    else
+      word.pieces.push_back(std::move(piece));
   }
 
   void read_quoted(ShellWord& word) {
@@ -186,7 +203,10 @@ class ShellLexer {
     advance(opening);
     const std::size_t first = at_;
     for (int depth = 1; !at_end(); advance()) {
-      if (peek() == '\\') { advance(); continue; }
+      if (peek() == '\\') {
+        advance();
+        continue;
+      }
       if (peek() == open) ++depth;
       if (peek() == close && --depth == 0) break;
     }

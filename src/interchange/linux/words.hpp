@@ -43,12 +43,13 @@ class Words {
   At<std::int64_t> take_number(const std::string& expected, std::int64_t least, std::int64_t most, int base = 10) {
     const Word word = take_value(expected);
     const auto value = number(word.text, base);
-    if (!word.text.empty() && (!value || *value < least || *value > most)) refuse(word, "not a number that fits", expected);
+    if (!word.text.empty() && (!value || *value < least || *value > most))
+      refuse(word, "not a number that fits", expected);
     return {value && *value >= least && *value <= most ? *value : least > 0 ? least : std::int64_t{0}, word.place};
   }
   static std::optional<std::int64_t> number(std::string_view text, int base = 10) {
     const bool has_prefix = text.starts_with("0x") || text.starts_with("0X");
-    if (base == 0) base = has_prefix ? 16 : text.size() > 1 && text.front() == '0' ? 8 : 10;   // as strtoul does
+    if (base == 0) base = has_prefix ? 16 : text.size() > 1 && text.front() == '0' ? 8 : 10;  // as strtoul does
     if (base == 16 && has_prefix) text.remove_prefix(2);
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "cli/interrupt.hpp"
 #include "json/fields.hpp"
 #include "scenario/description/description.hpp"
+#include "studio/address.hpp"
 #include "studio/server.hpp"
 
 namespace takt::cli {
@@ -27,6 +29,11 @@ ExitStatus run(const StudioOptions& options) {
     std::fputs("takt studio: this takt was built without the page; tools/studio installs what it is made of (npm), builds and opens it\n", stderr);
     return ExitStatus::bad_input;
   }
+  std::error_code error;
+  if (const auto size = std::filesystem::file_size(options.file, error); !error && size > studio::most_text) {
+    std::fprintf(stderr, "takt studio: %s\n", studio::too_large(options.file, size).c_str());
+    return ExitStatus::bad_input;
+  }
   studio::Document document(options.file);
   std::string problem;
   if (!document.saved(problem) && !problem.empty()) {
@@ -35,25 +42,35 @@ ExitStatus run(const StudioOptions& options) {
   }
   studio::Engine engine(options.file);
   studio::Interface interface(engine, document, json::schema<scenario::Scenario>("takt scenario"), path_of_program("takt"));
-  studio::Server server(interface, assets);
-  if (!server.bind(static_cast<std::uint16_t>(options.port))) {
-    std::fprintf(stderr, "takt studio: port %u of 127.0.0.1 is not to be had\n", static_cast<unsigned>(options.port));
-    return ExitStatus::bad_input;
+  // After a crash pages are still open: they are answered at the address that they have, if the port is to be had.
+  const studio::AddressMemory memory(options.file);
+  const auto before = memory.last();
+  const bool comes_back = before && (options.port == 0 || options.port == before->port);
+  auto server = std::make_unique<studio::Server>(interface, assets, comes_back ? before->token : studio::new_token());
+  if (!comes_back || !server->bind(before->port)) {
+    if (comes_back) server = std::make_unique<studio::Server>(interface, assets, studio::new_token());
+    if (!server->bind(static_cast<std::uint16_t>(options.port))) {
+      std::fprintf(stderr, "takt studio: port %u of 127.0.0.1 is not to be had\n", static_cast<unsigned>(options.port));
+      return ExitStatus::bad_input;
+    }
   }
+  const studio::Address own{server->port(), server->token()};
+  memory.keep(own);
   const InterruptGuard interrupt;
-  std::printf("%s\n", server.address().c_str());
+  std::printf("%s\n", server->address().c_str());
   std::fflush(stdout);
   // Signals only set a flag, so somebody has to look at it.
   std::jthread watch([&](const std::stop_token& ends) {
     try {
       while (!ends.stop_requested() && !interrupt.requested()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
       interface.stop();
-      server.stop();
+      server->stop();
     } catch (const std::exception&) {
       std::terminate();
     }
   });
-  server.listen();
+  server->listen();
+  memory.forget(own);
   return ExitStatus::pass;
 }
 

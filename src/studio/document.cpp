@@ -1,5 +1,6 @@
 #include "studio/document.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,8 +9,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 
 #include "output/result_folder.hpp"
+#include "sim/digest.hpp"
 
 namespace takt::studio {
 namespace {
@@ -19,6 +22,8 @@ std::optional<std::string> content_of(const std::string& path) {
   if (!file) return std::nullopt;
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
+
+bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r\n") == std::string_view::npos; }
 
 }  // namespace
 
@@ -31,21 +36,58 @@ std::optional<std::string> Document::saved(std::string& problem) const {
   return content;
 }
 
+std::string Document::digest_of(std::string_view text) {
+  std::uint64_t hash = sim::hash_of(std::as_bytes(std::span(text)));
+  std::string digits(16, '0');
+  for (std::size_t place = digits.size(); place-- > 0; hash >>= 4) digits[place] = "0123456789abcdef"[hash & 15];
+  return digits;
+}
+
+std::string Document::digest() const {
+  const std::lock_guard lock(digest_mutex_);
+  struct stat file {};
+  if (::stat(path_.c_str(), &file) != 0) {
+    known_ = {};
+    return digest_ = {};
+  }
+  const Known now{std::int64_t{file.st_mtim.tv_sec} * 1'000'000'000 + file.st_mtim.tv_nsec, static_cast<std::uint64_t>(file.st_size), file.st_ino};
+  if (now == known_) return digest_;
+  const auto content = content_of(path_);
+  known_ = content ? now : Known{};
+  return digest_ = content ? digest_of(*content) : std::string();
+}
+
 std::optional<std::string> Document::draft() const { return content_of(draft_path()); }
 
-std::string Document::keep_draft(std::string_view text) {
+bool Document::is_newer_than_draft() const {
+  std::error_code of_file;
+  std::error_code of_draft;
+  const auto file = std::filesystem::last_write_time(path_, of_file);
+  const auto draft = std::filesystem::last_write_time(draft_path(), of_draft);
+  return !of_file && !of_draft && file > draft;
+}
+
+std::string Document::keep_draft(std::string_view text, std::string_view base) {
   const std::lock_guard lock(mutex_);
+  if (is_blank(text)) return {};
+  std::error_code error;
   if (content_of(path_) == text) {
-    std::error_code error;
     std::filesystem::remove(draft_path(), error);
     return {};
   }
-  return output::write_file(draft_path(), std::string(text));
+  if (std::string problem = output::write_file(draft_path(), std::string(text)); !problem.empty()) return problem;
+  // It rests on an older file: its time says so, also to the engine that comes after this one.
+  if (base != digest())
+    if (const auto file = std::filesystem::last_write_time(path_, error); !error) std::filesystem::last_write_time(draft_path(), file - std::chrono::seconds(1), error);
+  return {};
 }
 
-std::string Document::save(std::string_view text) {
+Document::Saved Document::save(std::string_view text, std::string_view base, bool may_empty) {
   const std::lock_guard lock(mutex_);
-  if (std::string problem = output::write_file(path_, std::string(text)); !problem.empty()) return problem;
+  const auto content = content_of(path_);
+  if (content && *content != text && digest_of(*content) != base) return {.is_conflict = true};
+  if (content && !is_blank(*content) && is_blank(text) && !may_empty) return {.empties = true};
+  if (std::string problem = output::write_file(path_, std::string(text)); !problem.empty()) return {.problem = std::move(problem)};
   std::error_code error;
   std::filesystem::remove(draft_path(), error);
   return {};

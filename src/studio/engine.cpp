@@ -5,17 +5,17 @@
 #include <utility>
 
 #include "evaluation/evaluate.hpp"
-#include "report/network_figure.hpp"
 #include "results/result_json.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
+#include "studio/document.hpp"
 #include "studio/plant.hpp"
 #include "verify/report.hpp"
 
 namespace takt::studio {
 
 const char* name_of(Stage stage) {
-  constexpr std::array<const char*, 7> names = {"empty", "checking", "refused", "running", "proving", "searching", "done"};
+  constexpr std::array<const char*, 8> names = {"empty", "checking", "refused", "running", "proving", "searching", "done", "sketched"};
   return names[static_cast<std::size_t>(stage)];
 }
 
@@ -39,10 +39,13 @@ Engine::~Engine() {
   worker_.join();
 }
 
-void Engine::set_text(std::uint64_t revision, std::string text) {
+void Engine::set_text(std::uint64_t revision, std::string text, Pace pace) {
   const std::lock_guard lock(mutex_);
+  if (revision_ != 0 && pace_ == Pace::exact && text_ == text) return;
   text_ = std::move(text);
+  digest_ = Document::digest_of(text_);
   revision_ = revision;
+  pace_ = pace;
   has_work_ = true;
   changed_.notify_all();
 }
@@ -73,13 +76,15 @@ void Engine::work() {
     has_work_ = false;
     const std::uint64_t revision = revision_;
     const std::string text = text_;
+    const Pace pace = pace_;
     lock.unlock();
     try {
-      work_at(revision, text);
+      work_at(revision, text, pace);
     } catch (const std::exception& problem) {   // a broken invariant, or too little memory: the next text may do
       const std::string what = std::string("internal error, please report it with the scenario: ") + problem.what();
       publish(revision, [&](Findings& f) {
         f.stage = Stage::done;
+        f.text = digest_;
         f.trouble = what;
       });
     }
@@ -89,13 +94,12 @@ void Engine::work() {
 
 /// Those that took longer than the run as it is, or that fail.
 void Engine::keep_worst(std::uint64_t revision, const verify::Verification& verification) {
-  std::vector<std::shared_ptr<const scenario::Resolved>> worst;
+  std::vector<verify::FoundRun> worst;
   std::vector<results::RequirementResult> requirements;
   for (const verify::Line& line : verification.lines) {
-    json::Diagnostics unused;
     requirements.push_back(line.requirement);
     if (line.adversarial) requirements.back().measured = line.adversarial;
-    worst.push_back(line.adversarial ? scenario::resolve(line.longest.scenario(), unused) : nullptr);
+    worst.push_back(line.adversarial ? line.longest : verify::FoundRun{});
   }
   const std::lock_guard lock(mutex_);
   if (revision != subject_.revision) return;
@@ -114,39 +118,46 @@ bool Engine::is_current(std::uint64_t revision) {
   return !ends_ && revision == revision_;
 }
 
-void Engine::work_at(std::uint64_t revision, const std::string& text) {
-  if (!publish(revision, [](Findings& f) { f.stage = Stage::checking; })) return;
+void Engine::work_at(std::uint64_t revision, const std::string& text, Pace pace) {
+  const bool is_coarse = pace == Pace::coarse;
+  if (!is_coarse && !publish(revision, [](Findings& f) { f.stage = Stage::checking; })) return;
   json::Diagnostics diagnostics;
   const std::shared_ptr<const scenario::Resolved> resolved = scenario::load_text(text, file_name_, {}, diagnostics);
   // Figures of an older text do not stand beside a newer one.
-  const bool goes_on = publish(revision, [&](Findings& f) {
+  const auto begin = [&](Findings& f) {
     f.stage = resolved ? Stage::running : Stage::refused;
+    f.text = digest_;
     f.diagnostics = json::pretty(diagnostics.to_json());
     f.result.clear();
     f.proofs.clear();
     f.trouble.clear();
     subject_ = {revision, resolved};
-    if (resolved) f.network = plant_json(report::network_figure(*resolved, nullptr));
-  });
-  if (!goes_on || !resolved) return;
+    if (resolved) f.network = plant_json(*resolved, nullptr);
+  };
+  // Under the hand they are replaced at once: a table that empties at each movement cannot be read.
+  if ((!is_coarse || !resolved) && !publish(revision, begin)) return;
+  if (!resolved) return;
 
   scenario::Run run(*resolved);
   constexpr std::uint64_t events_a_slice = 100'000;
   bool is_complete = false;
-  while (!(is_complete = run.advance(events_a_slice)) && run.simulation().event_count() < effort_.run_events)
+  const std::uint64_t most_events = is_coarse ? effort_.coarse_events : effort_.run_events;
+  while (!(is_complete = run.advance(events_a_slice)) && run.simulation().event_count() < most_events)
     if (!is_current(revision)) return;
   const results::RunResult result = evaluation::evaluate(run, !is_complete);
   if (!publish(revision, [&](Findings& f) {
+        if (is_coarse) begin(f);
         f.stage = Stage::proving;
         f.result = results::run_json(result);
-        f.network = plant_json(report::network_figure(*resolved, &result));
+        f.network = plant_json(*resolved, &result);
       }))
     return;
 
   const auto verify_with = [&](std::uint64_t events) {
     verify::Options options;
     options.search.events = events;
-    options.search.interrupted = [&] { return !is_current(revision); };
+    const auto end = std::chrono::steady_clock::now() + effort_.longest_proof;
+    options.search.interrupted = [&, end] { return !is_current(revision) || std::chrono::steady_clock::now() > end; };
     options.proof.interrupted = options.search.interrupted;
     const verify::Verification verification = verify::verify(*resolved, options);
     keep_worst(revision, verification);
@@ -154,9 +165,10 @@ void Engine::work_at(std::uint64_t revision, const std::string& text) {
   };
   std::string proofs = verify_with(0);
   if (!publish(revision, [&](Findings& f) {
-        f.stage = Stage::searching;
+        f.stage = is_coarse ? Stage::sketched : Stage::searching;
         f.proofs = std::move(proofs);
-      }))
+      }) ||
+      is_coarse)
     return;
   proofs = verify_with(effort_.search_events);
   publish(revision, [&](Findings& f) {

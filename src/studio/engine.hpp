@@ -26,13 +26,17 @@ enum class Stage : std::uint8_t {
   proving,    ///< bounds of its requirements
   searching,  ///< for the worst runs
   done,
+  sketched,   ///< of a text that still changes: run in part, bounded, not searched
 };
+/// A text that changes under the hand is worked at in part, so that its figures follow the hand.
+enum class Pace : std::uint8_t { exact, coarse };
 const char* name_of(Stage stage);
 
 /// What is known of a text. Parts that are not there yet are empty.
 struct Findings {
   std::uint64_t version = 0;    ///< another one after every change
   std::uint64_t revision = 0;   ///< of the text, as set_text said
+  std::string text;             ///< digest of the text that the figures are of
   Stage stage = Stage::empty;
   std::string diagnostics;      ///< JSON, as of `takt check --format json`
   std::string network;          ///< JSON, see plant.hpp
@@ -45,7 +49,7 @@ struct Findings {
 struct Subject {
   std::uint64_t revision = 0;
   std::shared_ptr<const scenario::Resolved> resolved;
-  std::vector<std::shared_ptr<const scenario::Resolved>> worst = {};   ///< by requirement, as the proofs list them; null: none was found
+  std::vector<verify::FoundRun> worst = {};                            ///< by requirement, as the proofs list them; choices only: resolved they take megabytes
   std::vector<results::RequirementResult> requirements = {};           ///< likewise; `measured` is of the worst run
 };
 
@@ -53,6 +57,8 @@ struct Subject {
 struct Effort {
   std::uint64_t run_events = 200'000'000;
   std::uint64_t search_events = 20'000'000;
+  std::uint64_t coarse_events = 200'000;        ///< of the run of a text that still changes
+  std::chrono::seconds longest_proof{60};       ///< what is not proved by then is undecided; a search may take as long again
 };
 
 class Engine {
@@ -63,8 +69,8 @@ class Engine {
   Engine& operator=(const Engine&) = delete;
   ~Engine();
 
-  /// The text from now on.
-  void set_text(std::uint64_t revision, std::string text);
+  /// The text from now on. One that is worked at already, or was, goes on as it is, under its own revision.
+  void set_text(std::uint64_t revision, std::string text, Pace pace = Pace::exact);
   /// What is known now, or, if that is of `version` still, when something else is known, but after `most` at the latest.
   Findings wait_for_other(std::uint64_t version, std::chrono::milliseconds most);
   /// The text of that revision, if it is the present one and sound.
@@ -76,7 +82,7 @@ class Engine {
 
  private:
   void work();
-  void work_at(std::uint64_t revision, const std::string& text);
+  void work_at(std::uint64_t revision, const std::string& text, Pace pace);
   void keep_worst(std::uint64_t revision, const verify::Verification& verification);
   template <class Change>
   bool publish(std::uint64_t revision, const Change& change);
@@ -86,7 +92,9 @@ class Engine {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::string text_;
+  std::string digest_;   // of it
   std::uint64_t revision_ = 0;
+  Pace pace_ = Pace::exact;
   bool has_work_ = false;
   bool ends_ = false;
   Findings findings_;

@@ -9,12 +9,14 @@
 #include "json/document.hpp"
 #include "json/node.hpp"
 #include "json/record.hpp"
+#include "scenario/resolve/resolve.hpp"
 #include "study/report.hpp"
 
 namespace takt::studio {
 namespace {
 
 constexpr std::chrono::milliseconds longest_wait{15'000};
+constexpr std::chrono::milliseconds longest_blindness{300};   // of changes of the file
 constexpr std::size_t most_timelines = 3;
 constexpr std::size_t most_layout = 1'000'000;   // octets
 
@@ -42,6 +44,11 @@ std::uint64_t Request::number(const char* name) const {
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc() && end == text.data() + text.size() ? number : no_number;
+}
+
+std::string too_large(const std::string& path, std::uintmax_t octets) {
+  const auto tenths = (octets + 99'999) / 100'000;
+  return path + " has " + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " MB: takt studio takes texts of at most 8 MB";
 }
 
 Interface::Interface(Engine& engine, Document& document, std::string schema, std::string program) : engine_(engine), document_(document), schema_(std::move(schema)), program_(std::move(program)) {}
@@ -84,23 +91,47 @@ Answer Interface::schema(const Request&) { return {200, schema_}; }
 
 Answer Interface::file(const Request&) {
   std::string problem;
-  const auto saved = document_.saved(problem);
-  const auto draft = document_.draft();
-  return {200, "{\"path\": " + text_json(document_.path()) + ", \"saved\": " + (saved ? text_json(*saved) : "null") + ", \"draft\": " + (draft ? text_json(*draft) : "null") +
-                   ", \"problem\": " + text_json(problem) + "}"};
+  auto saved = document_.saved(problem);
+  auto draft = document_.draft();
+  const std::string digest = saved ? Document::digest_of(*saved) : std::string();
+  for (auto* const each : {&saved, &draft}) {
+    if (!*each || (*each)->size() <= most_text) continue;
+    problem = too_large(each == &saved ? document_.path() : document_.draft_path(), (*each)->size());
+    each->reset();
+  }
+  return {200, "{\"path\": " + text_json(document_.path()) + ", \"saved\": " + (saved ? text_json(*saved) : "null") + ", \"digest\": " + text_json(digest) + ", \"draft\": " +
+                   (draft ? text_json(*draft) : "null") + ", \"draft_is_older\": " + (draft && document_.is_newer_than_draft() ? "true" : "false") + ", \"problem\": " + text_json(problem) + "}"};
 }
 
-Answer Interface::save(const Request& request) { return told(document_.save(request.body)); }
+/// The parameter "base" is the digest of the file that the text rests on. A save is of the text that the engine works at from then on.
+Answer Interface::save(const Request& request) {
+  const Document::Saved saved = document_.save(request.body, request.parameter("base"), request.parameter("empty") == "yes");
+  const bool is_saved = saved.problem.empty() && !saved.is_conflict && !saved.empties;
+  if (const std::uint64_t revision = request.number("revision"); is_saved && revision > 0 && !engine_.is_current(revision)) engine_.set_text(revision, std::string(request.body));
+  return {saved.problem.empty() ? 200 : 500, "{\"problem\": " + text_json(saved.problem) + ", \"conflict\": " + (saved.is_conflict ? "true" : "false") + ", \"empties\": " +
+                                                 (saved.empties ? "true" : "false") + ", \"digest\": " + text_json(is_saved ? Document::digest_of(request.body) : document_.digest()) + "}"};
+}
 
 Answer Interface::text(const Request& request) {
-  const std::string problem = document_.keep_draft(request.body);
-  engine_.set_text(request.number("revision"), std::string(request.body));
-  return told(problem);
+  const bool is_coarse = request.parameter("pace") == "coarse";
+  // Under the hand nothing is written: what rests at last is.
+  const std::string problem = is_coarse ? std::string() : document_.keep_draft(request.body, request.parameter("base"));
+  engine_.set_text(request.number("revision"), std::string(request.body), is_coarse ? Pace::coarse : Pace::exact);
+  return {problem.empty() ? 200 : 500, "{\"problem\": " + text_json(problem) + ", \"text\": " + text_json(Document::digest_of(request.body)) + "}"};
 }
 
+/// Answers as soon as the engine knows something else than `after` says, or the file is another one than `file` says.
 Answer Interface::findings(const Request& request) {
-  const Findings f = engine_.wait_for_other(request.number("after"), longest_wait);
-  return {200, "{\"version\": " + std::to_string(f.version) + ", \"revision\": " + std::to_string(f.revision) + ", \"stage\": " + text_json(name_of(f.stage)) + ", \"diagnostics\": " +
+  const auto end = std::chrono::steady_clock::now() + longest_wait;
+  const std::uint64_t after = request.number("after");
+  const std::string known = request.parameter("file");
+  Findings f;
+  std::string digest;
+  do {
+    f = engine_.wait_for_other(after, longest_blindness);
+    digest = document_.digest();
+  } while (f.version == after && digest == known && !ends_ && std::chrono::steady_clock::now() < end);
+  return {200, "{\"file\": " + text_json(digest) + ", \"version\": " + std::to_string(f.version) + ", \"revision\": " + std::to_string(f.revision) + ", \"text\": " + text_json(f.text) + ", \"stage\": " + text_json(name_of(f.stage)) + ", \"diagnostics\": " +
                    embedded(f.diagnostics) + ", \"network\": " + embedded(f.network) + ", \"result\": " + embedded(f.result) + ", \"proofs\": " + embedded(f.proofs) +
                    ", \"trouble\": " + text_json(f.trouble) + "}"};
 }
@@ -120,16 +151,19 @@ std::shared_ptr<const scenario::Resolved> Interface::looked_at(const Request& re
   if (!subject) return nullptr;
   if (looked.run.empty()) return subject->resolved;
   const std::uint64_t number = request.number("run");
-  return number < subject->worst.size() ? subject->worst[number] : nullptr;
+  if (number >= subject->worst.size() || !subject->worst[number]) return nullptr;
+  json::Diagnostics unused;
+  return scenario::resolve(subject->worst[number].scenario(), unused);
 }
 
 std::shared_ptr<const Timeline> Interface::timeline_of(const Request& request, std::string& problem) {
-  Looked looked;
+  Looked looked{request.number("revision"), request.parameter("run"), request.number("from")};
+  const std::lock_guard lock(timelines_mutex_);
+  if (engine_.is_current(looked.revision))
+    for (const auto& [of, timeline] : timelines_)
+      if (of == looked) return timeline;
   const auto resolved = looked_at(request, looked);
   if (!resolved) return nullptr;
-  const std::lock_guard lock(timelines_mutex_);
-  for (const auto& [of, timeline] : timelines_)
-    if (of == looked) return timeline;
   if (looked.from >= static_cast<std::uint64_t>(resolved->scenario.duration.ps())) {
     problem = "the run is over by then";
     return nullptr;

@@ -18,6 +18,10 @@
 
 namespace takt::studio {
 
+inline constexpr std::size_t most_text = 8'000'000;   ///< octets of a scenario, and of any request
+/// What is said of a file with more.
+std::string too_large(const std::string& path, std::uintmax_t octets);
+
 struct Request {
   std::function<std::string(const char* name)> parameter;   ///< of the address; empty: not given
   std::string_view body = {};

@@ -1,42 +1,19 @@
 #include "studio/server.hpp"
 
 #include <httplib.h>
-#include <sys/random.h>
-
-#include <array>
 
 #include "security/secret.hpp"
-#include "sim/check.hpp"
 
 namespace takt::studio {
-namespace {
-
-constexpr std::size_t largest_text = 8'000'000;   // octets of a request
-
-/// 128 random bits as hexadecimal digits.
-std::string new_token() {
-  std::array<unsigned char, 16> octets{};
-  TAKT_CHECK(getrandom(octets.data(), octets.size(), 0) == static_cast<ssize_t>(octets.size()), "the operating system has random numbers");
-  std::string token;
-  constexpr const char* digits = "0123456789abcdef";
-  for (const unsigned char octet : octets) {
-    token += digits[octet >> 4];
-    token += digits[octet & 15];
-  }
-  return token;
-}
-
-}  // namespace
-
 class Server::Routes {
  public:
-  Routes(Interface& interface, const Assets& assets) : assets_(assets), token_(new_token()), interface_(interface) {
+  Routes(Interface& interface, const Assets& assets, std::string token) : assets_(assets), token_(std::move(token)), interface_(interface) {
     // A port that somebody listens at is taken; by default httplib would share it.
     server_.set_socket_options([](socket_t socket) {
       const int yes = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
-    server_.set_payload_max_length(largest_text);
+    server_.set_payload_max_length(most_text);
     server_.set_read_timeout(10);
     server_.set_write_timeout(10);
     server_.set_keep_alive_max_count(1000);
@@ -108,7 +85,7 @@ class Server::Routes {
   Interface& interface_;
 };
 
-Server::Server(Interface& interface, const Assets& assets) : routes_(std::make_unique<Routes>(interface, assets)) {}
+Server::Server(Interface& interface, const Assets& assets, std::string token) : routes_(std::make_unique<Routes>(interface, assets, std::move(token))) {}
 Server::~Server() = default;
 
 bool Server::bind(std::uint16_t port) {

@@ -20,8 +20,8 @@ Assets built_in_assets();
 
 class Server {
  public:
-  /// The interface outlives the server.
-  Server(Interface& interface, const Assets& assets);
+  /// The interface outlives the server; `token` is what the page must have.
+  Server(Interface& interface, const Assets& assets, std::string token);
   ~Server();
 
   /// Takes a port of 127.0.0.1, `port` or any free one for 0. False if it is not to be had.

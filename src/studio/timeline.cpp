@@ -63,13 +63,19 @@ void add_exact(std::span<const Timeline::Sent> sent, Stretch time, Octets& octet
   for (const Timeline::Sent& each : sent) octets.add(each.flags);
 }
 
-/// How busy the medium is in each part of the time, of 255, and the stream of the frame that takes most of it.
+/// How busy the medium is in each part of the time, of 255, the stream of the frame that takes most of it, and how many frames were discarded, at most 255.
 void add_buckets(std::span<const Timeline::Sent> sent, Stretch time, Octets& octets) {
   const double width = static_cast<double>(time.until - time.from) / buckets;
   std::vector<double> busy(buckets);
   std::vector<double> longest(buckets);
   std::vector<std::uint32_t> stream(buckets, 0xFFFF'FFFF);
+  std::vector<std::uint8_t> discarded(buckets);
   for (const Timeline::Sent& each : sent) {
+    if ((each.flags & Timeline::Sent::dropped) != 0) {
+      std::uint8_t& count = discarded[std::min(static_cast<std::size_t>(std::max(0.0, static_cast<double>(each.start - time.from)) / width), buckets - 1)];
+      if (count < 255) ++count;
+      continue;
+    }
     const double begin = std::max(0.0, static_cast<double>(each.start - time.from));
     const double end = std::min(static_cast<double>(time.until - time.from), static_cast<double>(each.start - time.from) + static_cast<double>(each.length));
     for (auto b = static_cast<std::size_t>(begin / width); b < buckets && static_cast<double>(b) * width <= end; ++b) {
@@ -82,6 +88,7 @@ void add_buckets(std::span<const Timeline::Sent> sent, Stretch time, Octets& oct
   }
   for (const std::uint32_t each : stream) octets.add(each);
   for (const double each : busy) octets.add(static_cast<std::uint8_t>(std::clamp(each / width, 0.0, 1.0) * 255 + 0.5));
+  for (const std::uint8_t each : discarded) octets.add(each);
 }
 
 /// The state at the beginning and each change; too many to be told apart are left out, with the count that they had.

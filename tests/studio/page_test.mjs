@@ -13,7 +13,9 @@ import { pathToFileURL } from "node:url";
 
 const [takt, source, pictures] = process.argv.slice(2);
 const driver = join(source, "build/studio/node_modules/puppeteer-core/lib/esm/puppeteer/puppeteer-core.js");
-const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) =>
+  existsSync(path),
+);
 if (!existsSync(driver) || chromium === undefined) {
   console.log("no browser here: the page is not looked at");
   process.exit(77);
@@ -24,10 +26,18 @@ const folder = await mkdtemp(join(tmpdir(), "takt-studio-"));
 const file = join(folder, "plant.json");
 await copyFile(join(source, "scenarios/tsn/gates-on-a-line.json"), file);
 await mkdir(join(folder, "studies"));
-const link = JSON.parse((await readFile(join(source, "scenarios/direct-link.json"), "utf8")).replace(/^\s*\/\/.*$/gm, ""));
+const link = JSON.parse(
+  (await readFile(join(source, "scenarios/direct-link.json"), "utf8")).replace(/^\s*\/\/.*$/gm, ""),
+);
 await writeFile(
   join(folder, "studies/cycle.json"),
-  JSON.stringify({ name: "cycle", scenario: link, factors: [{ name: "cycle", set: ["/programs/0/cycle"], values: ["200us", "400us", "1ms"] }], replications: 2, measures: [{ name: "latency", of: "latency.max", unit: "us" }] }),
+  JSON.stringify({
+    name: "cycle",
+    scenario: link,
+    factors: [{ name: "cycle", set: ["/programs/0/cycle"], values: ["200us", "400us", "1ms"] }],
+    replications: 2,
+    measures: [{ name: "latency", of: "latency.max", unit: "us" }],
+  }),
 );
 const open = async (path) => {
   const studio = spawn(takt, ["studio", path]);
@@ -41,7 +51,16 @@ let { studio, address } = await open(file);
 const browser = await puppeteer.launch({
   executablePath: chromium,
   headless: true,
-  args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  args: [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--disable-dev-shm-usage",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+  ],
 });
 let failed = true;
 const page = await browser.newPage();
@@ -58,8 +77,85 @@ try {
   await page.goto(address);
   await done();
   assert.match(await text("verdict"), /after \d+ runs/);
+  assert.equal(await page.$eval("#requirements tbody td", (each) => each.textContent), "undecided");
+  // At the widths of laptops every figure is in sight, of which the bound is the one that counts.
+  for (const width of [1280, 1366, 1440, 1536]) {
+    await page.setViewport({ width, height: 800 });
+    const hidden = await page.$$eval(
+      "#requirements th, #requirements tbody tr:first-child td:nth-child(n + 3)",
+      (cells) =>
+        cells
+          .filter((each) => each.getBoundingClientRect().top < innerHeight)
+          .filter((each) => {
+            const box = each.getBoundingClientRect();
+            return [box.left + 2, box.right - 2].some(
+              (x) => !each.contains(document.elementFromPoint(x, (box.top + box.bottom) / 2)),
+            );
+          })
+          .map((each) => each.textContent),
+    );
+    assert.deepEqual(hidden, [], `at ${width} px`);
+    await look(`findings-${width}`);
+  }
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+  await look("findings-dark");
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "light" }]);
+  await page.setViewport({ width: 1400, height: 1000 });
+  assert.match(
+    await page.$eval("#requirements .legend", (each) => each.textContent),
+    /simulated.*worst found.*at most.*limit/,
+  );
+  assert.match(
+    await page.$eval("#requirements tbody", (each) => each.textContent),
+    /control latency/,
+    "tightest first",
+  );
+  await page.type("#requirement-filter", "camera");
+  assert.equal(await page.$$eval("#requirements tbody", (all) => all.length), 2);
+  await page.$eval("#requirement-filter", (input) => ((input.value = ""), input.dispatchEvent(new Event("input"))));
+  await page.select("#requirement-order", "text");
+  assert.match(await page.$eval("#requirements tbody", (each) => each.textContent), /stream camera drops/);
+  await page.select("#requirement-order", "tightness");
+
+  // The splitter, by keyboard.
+  const widthOf = (id) => page.$eval(`#${id}`, (each) => each.clientWidth);
+  const wide = await widthOf("views");
+  await page.focus("#splitter");
+  await page.keyboard.press("ArrowLeft");
+  assert.ok((await widthOf("views")) > wide);
+  await page.keyboard.press("ArrowRight");
+
+  // From a requirement to its line and its stream's path, from the cursor to the map, from a link to the timeline.
+  const lineOf = () => page.$eval(".cm-activeLine", (each) => each.textContent);
+  await page.click("#requirements tbody a");
+  assert.match(await lineOf(), /"stream": "control", "latency"/);
+  await until(() => document.querySelector("#network-path").textContent === "control: h1 to sw1 to sw2 to sw3 to h3");
+  assert.equal(await page.$$eval("#network .link.is-lit", (all) => all.length), 4);
+  assert.equal(
+    await page.$$eval("#requirements tbody.is-chosen", (all) => all.length),
+    2,
+    "both of that item of the text",
+  );
+  await page.keyboard.down("Control");
+  await page.keyboard.press("Home");
+  await page.keyboard.up("Control");
+  for (let n = 0; n < 14; ++n) await page.keyboard.press("ArrowDown");
+  for (let n = 0; n < 10; ++n) await page.keyboard.press("ArrowRight");
+  await until(() => document.querySelector("#network-path").textContent.startsWith("camera: h2 to sw2"));
+  await page.focus('[data-link="sw2 sw3"], [data-link="sw3 sw2"]');
+  await page.keyboard.press("Enter");
+  await until(() => document.querySelector("#timeline-filter").value === "sw2:1 to sw3 | sw3:0 to sw2");
+  await page.$eval("#timeline-filter", (input) => ((input.value = ""), input.dispatchEvent(new Event("input"))));
+  await page.click("[data-view=findings]");
   assert.match(await text("requirements"), /stream control latency at most 10us/);
-  assert.equal(await page.$$eval("#network svg .mark title", (all) => all.filter((each) => /, a (host|switch)$/.test(each.textContent)).length), 6, "three hosts, three switches");
+  assert.equal(
+    await page.$$eval(
+      "#network svg .mark title",
+      (all) => all.filter((each) => /, a (host|switch)$/.test(each.textContent)).length,
+    ),
+    6,
+    "three hosts, three switches",
+  );
   assert.match(await text("streams"), /camera/);
   await look("done");
 
@@ -86,7 +182,13 @@ try {
   await look("mistake");
   await page.focus("#mistakes button");
   await key("Enter");
-  assert.ok(await page.$eval(".cm-content", (element) => element.contains(document.activeElement) || element === document.activeElement), "the editor has the focus again");
+  assert.ok(
+    await page.$eval(
+      ".cm-content",
+      (element) => element.contains(document.activeElement) || element === document.activeElement,
+    ),
+    "the editor has the focus again",
+  );
   await find('"10parsec"');
   await page.keyboard.type('"1us"');
   await until(() => /refuted/.test(document.querySelector("#verdict").textContent));
@@ -101,7 +203,21 @@ try {
   assert.match(await page.$eval(".cm-tooltip-autocomplete", (element) => element.textContent), /warm_up/);
   await look("completion");
   await key("Escape");
-  await key(...Array(4).fill("Backspace"));   // with the quote goes the one that the editor has closed it by
+  await key(...Array(4).fill("Backspace")); // with the quote goes the one that the editor has closed it by
+
+  // Names are completed from the text and from what generators make; a comment is no mistake of the grammar.
+  await find('"stream": "camera"');
+  await page.keyboard.type('"stream": "co');
+  await page.waitForSelector(".cm-tooltip-autocomplete", { timeout: 60_000 });
+  assert.match(await page.$eval(".cm-tooltip-autocomplete", (element) => element.textContent), /"control"/);
+  await key("Enter");
+  await until(() =>
+    document.querySelector(".cm-content").textContent.includes('"stream": "control", "latency": "400us"'),
+  );
+  await find('"stream": "control", "latency": "400us"');
+  await page.keyboard.type('"stream": "camera", "latency": "400us"');
+  await key("Escape");
+  assert.match(await page.$eval(".cm-line .comment", (element) => element.textContent), /^\/\/ Gates along a line/);
 
   // Saved by the keyboard, whole.
   await page.keyboard.down("Control");
@@ -125,8 +241,13 @@ try {
   await key("n");
   await until(() => /transmission/.test(document.querySelector("#timeline-why").textContent));
   assert.match(await text("timeline-why"), /stream (control|camera): frame \d+/);
-  const shares = await page.$$eval("#timeline-why td:nth-child(4)", (all) => all.map((each) => Number.parseFloat(each.textContent)));
-  assert.ok(Math.abs(shares.reduce((sum, each) => sum + each, 0) - 100) < 0.1 * shares.length, "the parts are all of it");
+  const shares = await page.$$eval("#timeline-why td:nth-child(4)", (all) =>
+    all.map((each) => Number.parseFloat(each.textContent)),
+  );
+  assert.ok(
+    Math.abs(shares.reduce((sum, each) => sum + each, 0) - 100) < 0.1 * shares.length,
+    "the parts are all of it",
+  );
   await look("explanation");
   await key("Escape");
   assert.equal(await text("timeline-why"), "");
@@ -157,7 +278,8 @@ try {
   await focusValve();
   await press("ArrowRight", 5);
   const layout = async () => JSON.parse(await readFile(`${file}.layout`, "utf8").catch(() => "{}"));
-  for (let tries = 0; tries < 100 && !(await layout()).nodes?.valve; ++tries) await new Promise((next) => setTimeout(next, 50));
+  for (let tries = 0; tries < 100 && !(await layout()).nodes?.valve; ++tries)
+    await new Promise((next) => setTimeout(next, 50));
   assert.equal((await layout()).nodes.valve.length, 2);
   await look("edited");
 
@@ -165,7 +287,11 @@ try {
   await view("compare");
   await page.focus("#compare-actions button:last-child");
   await key("Enter");
-  await until(() => /Figures/.test(document.querySelector("#compare-found").textContent) && /Requirements/.test(document.querySelector("#compare-found").textContent));
+  await until(
+    () =>
+      /Figures/.test(document.querySelector("#compare-found").textContent) &&
+      /Requirements/.test(document.querySelector("#compare-found").textContent),
+  );
   await look("compare");
   await view("findings");
   await focusValve();
@@ -184,7 +310,7 @@ try {
   // On a phone, and in the dark.
   await page.setViewport({ width: 390, height: 800 });
   await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
-  for (const name of ["findings", "timeline", "explorer", "compare", "studies"]) {
+  for (const name of ["findings", "timeline", "gates", "explorer", "compare", "studies"]) {
     await view(name);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 391), `nothing sticks out of ${name}`);
     await look(`phone-${name}`);
@@ -197,10 +323,16 @@ try {
 
   // Counter-examples step by step, and a million frames on one page.
   const paper = join(folder, "paper.json");
-  await writeFile(paper, (await readFile(join(source, "scenarios/robot-arm.json"), "utf8")).replace('"master"', '"variant": "paper", "master"'));
+  await writeFile(
+    paper,
+    (await readFile(join(source, "scenarios/robot-arm.json"), "utf8")).replace(
+      '"master"',
+      '"variant": "paper", "master"',
+    ),
+  );
   ({ studio, address } = await open(paper));
   await page.setViewport({ width: 1400, height: 1000 });
-  page.on("dialog", (dialog) => dialog.accept());   // what was not saved
+  page.on("dialog", (dialog) => dialog.accept()); // what was not saved
   await page.goto(address);
   await until(() => document.querySelector("#streams").textContent !== "");
   await view("explorer");
@@ -214,20 +346,39 @@ try {
   await look("explorer");
   await view("timeline");
   await until(() => /frames on ports/.test(document.querySelector("#timeline-notice").textContent));
-  assert.ok(Number((await text("timeline-notice")).replace(/,/g, "").split(" ")[0]) > 1e6, await text("timeline-notice"));
+  assert.ok(
+    Number((await text("timeline-notice")).replace(/,/g, "").split(" ")[0]) > 1e6,
+    await text("timeline-notice"),
+  );
   for (const zoom of [0, 8, 8, 8]) {
     await page.focus("#timeline-canvas");
     await press("+", zoom);
-    const times = page.evaluate(() => new Promise((tell) => {
-      const seen = [];
-      const next = (now) => (seen.push(now) < 120 ? requestAnimationFrame(next) : tell(seen.slice(1).map((each, n) => each - seen[n]).sort((a, b) => a - b)));
-      requestAnimationFrame(next);
-    }));
+    const times = page.evaluate(
+      () =>
+        new Promise((tell) => {
+          const seen = [];
+          const next = (now) =>
+            seen.push(now) < 120
+              ? requestAnimationFrame(next)
+              : tell(
+                  seen
+                    .slice(1)
+                    .map((each, n) => each - seen[n])
+                    .sort((a, b) => a - b),
+                );
+          requestAnimationFrame(next);
+        }),
+    );
     await press("ArrowRight", 80);
     const sorted = await times;
-    console.log(`${await text("timeline-notice")}: frames of the pan: median ${sorted[60].toFixed(1)} ms, 90 % ${sorted[107].toFixed(1)} ms`);
+    console.log(
+      `${await text("timeline-notice")}: frames of the pan: median ${sorted[60].toFixed(1)} ms, 90 % ${sorted[107].toFixed(1)} ms`,
+    );
   }
-  assert.deepEqual(complaints.filter((each) => !/ERR_|Failed to load resource/.test(each)), []);
+  assert.deepEqual(
+    complaints.filter((each) => !/ERR_|Failed to load resource/.test(each)),
+    [],
+  );
   failed = false;
 } finally {
   if (failed) await look("failed").catch(() => undefined);

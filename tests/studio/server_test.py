@@ -5,6 +5,7 @@
 """
 import http.client
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -19,8 +20,8 @@ import unittest
 class Studio:
     """A running `takt studio` on a scenario of a folder of its own."""
 
-    def __init__(self, folder):
-        self.file = folder / "plant.json"
+    def __init__(self, folder, name="plant.json"):
+        self.file = folder / name
         self.process = subprocess.Popen([TAKT, "studio", self.file], stdout=subprocess.PIPE, text=True)
         address = self.process.stdout.readline().strip()
         found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=([0-9a-f]{32})", address)
@@ -139,18 +140,72 @@ class ServerTest(unittest.TestCase):
 
     def test_a_killed_engine_loses_no_text(self):
         text = (self.folder / "plant.json").read_text().replace("pair", "twins")
-        self.assertEqual(json.loads(self.studio.ask("PUT", "/api/text?revision=5", body=text.encode())[1]), {"problem": ""})
+        before = json.loads(self.studio.ask("GET", "/api/file")[1])
+        told = json.loads(self.studio.ask("PUT", f"/api/text?revision=5&base={before['digest']}", body=text.encode())[1])
+        self.assertEqual(told["problem"], "")
+        address = self.studio.port, self.studio.token
         self.studio.process.kill()
         self.studio.process.wait()
         self.studio.process.stdout.close()
         self.studio = Studio(self.folder)
+        self.assertEqual((self.studio.port, self.studio.token), address, "pages that are open find the engine that comes after a crash")
         file = json.loads(self.studio.ask("GET", "/api/file")[1])
         self.assertEqual(file["draft"], text)
         self.assertNotEqual(file["saved"], text)
-        self.assertEqual(json.loads(self.studio.ask("PUT", "/api/file", body=text.encode())[1]), {"problem": ""})
+        self.assertFalse(file["draft_is_older"])
+        saved = json.loads(self.studio.ask("PUT", f"/api/file?revision=6&base={file['digest']}", body=text.encode())[1])
+        self.assertEqual((saved["problem"], saved["conflict"]), ("", False))
         file = json.loads(self.studio.ask("GET", "/api/file")[1])
         self.assertEqual((file["saved"], file["draft"]), (text, None))
         self.assertEqual((self.folder / "plant.json").read_text(), text)
+
+    def test_an_engine_that_ends_in_good_order_leaves_no_token(self):
+        token = self.studio.token
+        self.assertEqual(self.studio.stop(), 0)
+        self.studio = Studio(self.folder)
+        self.assertNotEqual(self.studio.token, token)
+
+    def test_a_save_over_another_file_is_refused(self):
+        file = json.loads(self.studio.ask("GET", "/api/file")[1])
+        (self.folder / "plant.json").write_text("theirs")
+        for base in (file["digest"], "", "0" * 16):
+            saved = json.loads(self.studio.ask("PUT", f"/api/file?revision=1&base={base}", body=b"mine")[1])
+            self.assertTrue(saved["conflict"])
+        self.assertEqual((self.folder / "plant.json").read_text(), "theirs")
+
+    def test_a_file_that_is_too_large_is_told(self):
+        large = self.folder / "large.json"
+        large.write_text(" " * 9_100_000)
+        done = subprocess.run([TAKT, "studio", large], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("large.json has 9.1 MB: takt studio takes texts of at most 8 MB", done.stderr)
+        large.unlink()
+        # Nor one that becomes so while the studio has it.
+        (self.folder / "plant.json").write_text(" " * 8_000_001)
+        file = json.loads(self.studio.ask("GET", "/api/file")[1])
+        self.assertIn("takes texts of at most 8 MB", file["problem"])
+        self.assertIsNone(file["saved"])
+
+    # A thousand requirements of a thousand nodes: the worst run of each was kept as a whole scenario, 15 MB.
+    def test_many_requirements_of_a_large_network(self):
+        many = self.folder / "many.json"
+        many.write_text(subprocess.run([sys.executable, SOURCE / "tests/findings/many-requirements.py", "1000"], capture_output=True, text=True, check=True).stdout)
+        self.studio.stop()
+        self.studio = Studio(self.folder, "many.json")
+        self.studio.ask("PUT", "/api/text?revision=1", body=many.read_bytes())
+        version = 0
+        while True:
+            found = json.loads(self.studio.ask("GET", f"/api/findings?after={version}")[1])
+            version = found["version"]
+            if found["stage"] in ("searching", "done"):
+                break
+        self.assertEqual(len(found["proofs"]["requirements"]), 1000)
+        status = pathlib.Path(f"/proc/{self.studio.process.pid}/status").read_text()
+        cpu = sum(map(int, pathlib.Path(f"/proc/{self.studio.process.pid}/stat").read_text().split()[13:15])) / os.sysconf("SC_CLK_TCK")
+        megabytes = int(re.search(r"VmHWM:\s*(\d+)", status).group(1)) / 1000
+        print(f"1,000 requirements on 1,000 nodes: bounded after {cpu:.2f} s of CPU time, {megabytes:.0f} MB")
+        self.assertLess(cpu, 5)
+        self.assertLess(megabytes, 400)
 
     def test_a_port_that_is_taken_is_told(self):
         done = subprocess.run([TAKT, "studio", self.studio.file, "--port", str(self.studio.port)], capture_output=True, text=True, timeout=60)

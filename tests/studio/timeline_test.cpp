@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "evaluation/evaluate.hpp"
 #include "explain/way_recorder.hpp"
 #include "scenario/resolve/resolve.hpp"
 #include "scenario/run/run.hpp"
@@ -198,6 +199,32 @@ TEST(Recording, BeginsLaterIfAskedTo) {
     const auto first = std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.start >= from.ps(); });
     ASSERT_EQ(late->rows()[r].sent.size(), static_cast<std::size_t>(all.end() - first));
     for (std::size_t n = 0; n < late->rows()[r].sent.size(); ++n) EXPECT_EQ(late->rows()[r].sent[n].start, first[static_cast<std::ptrdiff_t>(n)].start);
+  }
+}
+
+/// Frames that a filter, a meter or a stream gate discards have no port of their own; those of a longest SDU neither.
+TEST(Recording, HoldsEachFrameThatWasDiscarded) {
+  for (const char* const change : {"duration=200ms", "/streams/0/offset=500us", "/streams/0/payload=400B"}) {
+    json::Diagnostics diagnostics;
+    const auto resolved = scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/scenarios/tsn/policing.json", {"duration=200ms", change}, diagnostics);
+    ASSERT_TRUE(resolved) << diagnostics.to_text();
+    scenario::Run run(*resolved);
+    run.advance();
+    const results::RunResult result = evaluation::evaluate(run, false);
+    const auto timeline = Timeline::record(*resolved, sim::TrueTime(), {}, never);
+    for (std::uint32_t s = 0; s < result.streams.size(); ++s) {
+      std::uint64_t discarded = 0;
+      for (const Timeline::Row& row : timeline->rows())
+        discarded += static_cast<std::uint64_t>(std::count_if(row.sent.begin(), row.sent.end(), [&](const Timeline::Sent& each) { return (each.flags & Timeline::Sent::dropped) != 0 && each.stream == s; }));
+      EXPECT_EQ(discarded, result.streams[s].dropped_in_all()) << change << ' ' << result.streams[s].name;
+    }
+    EXPECT_GT(result.streams[1].dropped_in_all(), 100u);
+    // Seen from afar, too: how many ended in each part of the time.
+    const Piece piece(timeline->piece(0, 0, 0, Timeline::most_rows));
+    std::uint64_t told = 0;
+    for (std::size_t r = 0; r < piece.rows(); ++r)
+      for (std::size_t b = 0; piece.kind(r) == 2 && b < 512; ++b) told += piece.at<std::uint8_t>(piece.place(r) + 5 * 512 + b);
+    EXPECT_GE(told, result.streams[1].dropped_in_all()) << change;
   }
 }
 

@@ -61,6 +61,7 @@ export interface Proof {
 export interface Verification {
   verdict: string;
   runs: number;
+  partial: boolean;
   requirements: Proof[];
 }
 
@@ -80,6 +81,8 @@ export interface Plant {
   nodes: PlantNode[];
   links: { a: number; b: number; colour: string; title: string; failed: boolean }[];
   legend: { colour: string; text: string }[];
+  paths: Record<string, number[][]>; // nodes from talker to listener
+  requirements: { entry: number | null; subject: string }[]; // by position in the result
 }
 
 /// Where nodes were dragged to, in the units of PlantNode.
@@ -134,7 +137,14 @@ export interface ExplainedFrame {
 
 export interface Explanation {
   question: string;
-  reaction?: { program: string; kind: string; cause: string; began_ps: number; takes_ps: number; steps: { what: string; who: string; at_ps: number; takes_ps: number; message?: ExplainedFrame | null }[] } | null;
+  reaction?: {
+    program: string;
+    kind: string;
+    cause: string;
+    began_ps: number;
+    takes_ps: number;
+    steps: { what: string; who: string; at_ps: number; takes_ps: number; message?: ExplainedFrame | null }[];
+  } | null;
   frames: ExplainedFrame[];
 }
 
@@ -161,7 +171,14 @@ export interface FoundRun {
   participants: string[];
   states: Record<string, string>;
   knowledge: Belief[];
-  steps: { step: number; sentence: string; arrow: string[]; states: Record<string, string>; knowledge: Belief[]; findings: string[] }[];
+  steps: {
+    step: number;
+    sentence: string;
+    arrow: string[];
+    states: Record<string, string>;
+    knowledge: Belief[];
+    findings: string[];
+  }[];
   cycle: number;
   why: string[];
 }
@@ -206,6 +223,8 @@ export interface Errand<T> {
 export interface Findings {
   version: number;
   revision: number;
+  text: string; // digest of the text that they belong to
+  file: string; // of the file
   stage: string;
   diagnostics: { errors: number; warnings: number; diagnostics: Diagnostic[] } | null;
   network: Plant | null;
@@ -217,15 +236,37 @@ export interface Findings {
 export interface FileState {
   path: string;
   saved: string | null;
+  digest: string; // of what is saved; empty: there is no file
   draft: string | null;
+  draft_is_older: boolean; // than the file
   problem: string;
+}
+
+export interface Saved {
+  problem: string;
+  conflict: boolean; // the file is another one than the text rests on: nothing was written
+  empties: boolean; // an empty text over a full one: likewise
+  digest: string; // of the file, as it is now
 }
 
 const token = new URLSearchParams(location.search).get("token") ?? "";
 
+export class EngineError extends Error {
+  constructor(
+    readonly status: number,
+    words: string,
+  ) {
+    super(words);
+  }
+}
+
 async function ask(method: string, path: string, body?: string): Promise<Response> {
-  const response = await fetch(path, { method, headers: { "X-Takt-Token": token }, ...(body === undefined ? {} : { body }) });
-  if (!response.ok) throw new Error((await response.text()).trim() || response.statusText);
+  const response = await fetch(path, {
+    method,
+    headers: { "X-Takt-Token": token },
+    ...(body === undefined ? {} : { body }),
+  });
+  if (!response.ok) throw new EngineError(response.status, (await response.text()).trim() || response.statusText);
   return response;
 }
 
@@ -239,25 +280,36 @@ export interface Look {
   requirement: number;
   from: number;
 }
-const lookAt = (look: Look) => `revision=${look.revision}&run=${look.requirement < 0 ? "" : look.requirement}&from=${look.from}`;
+const lookAt = (look: Look) =>
+  `revision=${look.revision}&run=${look.requirement < 0 ? "" : look.requirement}&from=${look.from}`;
 
 export const engine = {
   schema: () => json<{ [key: string]: Json }>("GET", "/api/schema"),
   file: () => json<FileState>("GET", "/api/file"),
-  save: (text: string) => json<{ problem: string }>("PUT", "/api/file", text),
-  tell: (revision: number, text: string) => json<{ problem: string }>("PUT", `/api/text?revision=${revision}`, text),
+  save: (text: string, base: string, revision: number, mayEmpty: boolean) =>
+    json<Saved>("PUT", `/api/file?base=${base}&revision=${revision}${mayEmpty ? "&empty=yes" : ""}`, text),
+  tell: (revision: number, text: string, base: string, isCoarse: boolean) =>
+    json<{ problem: string; text: string }>(
+      "PUT",
+      `/api/text?revision=${revision}&base=${base}${isCoarse ? "&pace=coarse" : ""}`,
+      text,
+    ),
   layout: () => json<Layout>("GET", "/api/layout"),
   keepLayout: (layout: string) => json<{ problem: string }>("PUT", "/api/layout", layout),
   timeline: (look: Look) => json<TimelineSummary>("GET", `/api/timeline?${lookAt(look)}`),
   piece: async (look: Look, level: number, index: number, first: number, count: number) =>
-    (await ask("GET", `/api/piece?${lookAt(look)}&level=${level}&index=${index}&first=${first}&count=${count}`)).arrayBuffer(),
-  explain: (look: Look, stream: string, sequence: number) => json<Explanation>("GET", `/api/explain?${lookAt(look)}&stream=${encodeURIComponent(stream)}&sequence=${sequence}`),
+    (
+      await ask("GET", `/api/piece?${lookAt(look)}&level=${level}&index=${index}&first=${first}&count=${count}`)
+    ).arrayBuffer(),
+  explain: (look: Look, stream: string, sequence: number) =>
+    json<Explanation>("GET", `/api/explain?${lookAt(look)}&stream=${encodeURIComponent(stream)}&sequence=${sequence}`),
   explainWorst: (look: Look) => json<Explanation>("GET", `/api/explain?${lookAt(look)}`),
   studies: () => json<string[]>("GET", "/api/studies"),
   explore: (text: string, options: string) => json<{ problem: string }>("PUT", `/api/explore?${options}`, text),
-  compare: (a: string, b: string) => json<{ problem: string }>("PUT", `/api/compare?length=${new TextEncoder().encode(a).length}`, a + b),
+  compare: (a: string, b: string) =>
+    json<{ problem: string }>("PUT", `/api/compare?length=${new TextEncoder().encode(a).length}`, a + b),
   study: (file: string) => json<{ problem: string }>("PUT", `/api/study?file=${encodeURIComponent(file)}`, ""),
   errand: <T>(name: string) => json<Errand<T>>("GET", `/api/errand?name=${name}`),
   endErrand: (name: string) => json<{ problem: string }>("DELETE", `/api/errand?name=${name}`),
-  findings: (after: number) => json<Findings>("GET", `/api/findings?after=${after}`),
+  findings: (after: number, file: string) => json<Findings>("GET", `/api/findings?after=${after}&file=${file}`),
 };

@@ -12,7 +12,8 @@ function figure(of: Summary, unit: string): string {
 }
 
 /// B is another one than A as far as that can be said: zero is outside the interval of the difference.
-const differs = (difference: Summary): boolean => difference.mean !== undefined && Math.abs(difference.mean) > (difference.half_width_95 ?? 0);
+const differs = (difference: Summary): boolean =>
+  difference.mean !== undefined && Math.abs(difference.mean) > (difference.half_width_95 ?? 0);
 
 export class CompareView {
   private kept: string | null = null;
@@ -30,6 +31,12 @@ export class CompareView {
       button("Compare with the text as it is now", () => void this.compare()),
     );
     this.keep(null, "A is the file as it was saved last");
+  }
+
+  /// Another text beside the present one.
+  beside(text: string, words: string): void {
+    this.keep(text, words);
+    void this.compare();
   }
 
   /// Proofs of the present text may come later than what it is compared with.
@@ -57,7 +64,10 @@ export class CompareView {
     try {
       await engine.compare(a, b);
       for (;;) {
-        const [proofs, compared] = await Promise.all([engine.errand<Verification>("verify"), engine.errand<Compared>("compare")]);
+        const [proofs, compared] = await Promise.all([
+          engine.errand<Verification>("verify"),
+          engine.errand<Compared>("compare"),
+        ]);
         if (mine !== this.asked) return;
         this.last = { text: b, a: proofs, compared };
         this.show(proofs, compared);
@@ -71,14 +81,28 @@ export class CompareView {
 
   private show(a: Errand<Verification>, compared: Errand<Compared>): void {
     const made: HTMLElement[] = [];
-    for (const each of [a, compared]) if (!each.running && !each.output) made.push(element("pre", each.problem, "fail"));
+    for (const each of [a, compared])
+      if (!each.running && !each.output) made.push(element("pre", each.problem, "fail"));
     const now = this.present().proofs;
     if (a.output && now) {
       const texts = [...new Set([...a.output.requirements, ...now.requirements].map((each) => each.text))];
       const side = (of: Proof | undefined): Cell[] =>
-        of ? [{ text: of.verdict, look: of.verdict }, { text: time(of.adversarial_ps), look: "n" }, { text: time(of.bound_ps), look: "n" }] : [{ text: "not asked", look: "note" }, {}, {}];
-      const rows = texts.map((text): Cell[] => [{ text }, ...side(a.output?.requirements.find((each) => each.text === text)), ...side(now.requirements.find((each) => each.text === text))]);
-      made.push(element("h2", "Requirements"), table(["requirement", "A", "worst found", "at most", "now", "worst found", "at most"], rows));
+        of
+          ? [
+              { text: of.verdict, look: of.verdict },
+              { text: time(of.adversarial_ps), look: "n" },
+              { text: time(of.bound_ps), look: "n" },
+            ]
+          : [{ text: "not asked", look: "note" }, {}, {}];
+      const rows = texts.map((text): Cell[] => [
+        { text },
+        ...side(a.output?.requirements.find((each) => each.text === text)),
+        ...side(now.requirements.find((each) => each.text === text)),
+      ]);
+      made.push(
+        element("h2", "Requirements"),
+        table(["requirement", "A", "worst found", "at most", "now", "worst found", "at most"], rows),
+      );
     }
     if (compared.output) {
       const found = compared.output;
@@ -88,13 +112,25 @@ export class CompareView {
         { text: figure(each.b, each.unit), look: "n" },
         { text: figure(each.difference, each.unit), look: differs(each.difference) ? "n is-news" : "n note" },
       ]);
-      made.push(element("h2", `Figures, means of ${found.pairs} runs each with 95 % confidence`), table(["figure", "A", "now", "difference"], rows));
-      if (found.same_digest > 0) made.push(element("p", `${found.same_digest} of the pairs are the same run, event for event`));
+      made.push(
+        element("h2", `Figures, means of ${found.pairs} runs each with 95 % confidence`),
+        table(["figure", "A", "now", "difference"], rows),
+      );
+      if (found.same_digest > 0)
+        made.push(element("p", `${found.same_digest} of the pairs are the same run, event for event`));
       for (const trouble of found.troubles) made.push(element("p", trouble, "fail"));
       if (found.divergence) {
         const { seed, at_ps, only_a, only_b } = found.divergence;
         made.push(element("h2", `Where they part: at ${time(at_ps, 12)}, with seed ${seed}`));
-        made.push(table(["in A only", "now only"], Array.from({ length: Math.max(only_a.length, only_b.length) }, (_, n): Cell[] => [{ text: only_a[n] ?? "" }, { text: only_b[n] ?? "" }])));
+        made.push(
+          table(
+            ["in A only", "now only"],
+            Array.from({ length: Math.max(only_a.length, only_b.length) }, (_, n): Cell[] => [
+              { text: only_a[n] ?? "" },
+              { text: only_b[n] ?? "" },
+            ]),
+          ),
+        );
       }
     }
     byId("compare-found").replaceChildren(...made);

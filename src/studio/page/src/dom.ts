@@ -3,7 +3,13 @@
 /// In the greatest unit of which it has one, with that many digits behind the point.
 export function time(ps: number | null | undefined, digits = 3): string {
   if (ps === null || ps === undefined) return "-";
-  for (const [unit, size] of [["s", 1e12], ["ms", 1e9], ["us", 1e6], ["ns", 1e3]] as const) if (Math.abs(ps) >= size) return `${Number((ps / size).toFixed(digits))} ${unit}`;
+  for (const [unit, size] of [
+    ["s", 1e12],
+    ["ms", 1e9],
+    ["us", 1e6],
+    ["ns", 1e3],
+  ] as const)
+    if (Math.abs(ps) >= size) return `${Number((ps / size).toFixed(digits))} ${unit}`;
   return `${ps} ps`;
 }
 
@@ -44,7 +50,6 @@ export function table(heads: string[], rows: Cell[][]): HTMLElement {
 export function fill(id: string, ...children: HTMLElement[]): void {
   document.getElementById(id)?.replaceChildren(...children);
 }
-
 
 export function button(text: string, act: () => void, title = ""): HTMLButtonElement {
   const made = element("button", text) as HTMLButtonElement;

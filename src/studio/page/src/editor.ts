@@ -1,19 +1,34 @@
 // The editor: JSON with completion and hover texts from the schema, and diagnostics of the engine.
-import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap, type Completion, type CompletionContext, type CompletionResult } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
-import { json, jsonLanguage } from "@codemirror/lang-json";
-import { bracketMatching, defaultHighlightStyle, foldGutter, foldKeymap, indentOnInput, syntaxHighlighting, syntaxTree } from "@codemirror/language";
+import {
+  autocompletion,
+  closeBrackets,
+  closeBracketsKeymap,
+  completionKeymap,
+  type Completion,
+  type CompletionContext,
+  type CompletionResult,
+} from "@codemirror/autocomplete";
+import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory } from "@codemirror/commands";
+import {
+  bracketMatching,
+  defaultHighlightStyle,
+  foldGutter,
+  foldKeymap,
+  indentOnInput,
+  syntaxHighlighting,
+  syntaxTree,
+} from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics, type Diagnostic as Mark } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
-import { EditorState, type Extension } from "@codemirror/state";
+import { Compartment, EditorState, Transaction, type Extension } from "@codemirror/state";
 import { oneDark } from "@codemirror/theme-one-dark";
 import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import type { SyntaxNode } from "@lezer/common";
 import type { Diagnostic } from "./api";
-import type { Edit } from "./edits";
+import { applied, difference, place, type Edit, type Path } from "./edits";
+import { scenario, scenarioLanguage } from "./language";
+import { namesAt, type Names } from "./names";
 import { descriptionOf, keysAt, schemasAt, wordsAt, type Schema } from "./schema";
-
-type Path = (string | number)[];
 
 const nameOf = (state: EditorState, property: SyntaxNode): string => {
   const name = property.getChild("PropertyName");
@@ -32,14 +47,15 @@ function pathTo(state: EditorState, node: SyntaxNode | null): Path {
     if (at.name === "Property") path.unshift(nameOf(state, at));
     if (at.parent?.name === "Array") {
       let position = 0;
-      for (let before = at.prevSibling; before; before = before.prevSibling) if (!["[", "]", ",", "⚠"].includes(before.name)) ++position;
+      for (let before = at.prevSibling; before; before = before.prevSibling)
+        if (!["[", "]", ",", "⚠"].includes(before.name)) ++position;
       path.unshift(position);
     }
   }
   return path;
 }
 
-function completions(schema: Schema) {
+function completions(schema: Schema, names: () => Names) {
   return (context: CompletionContext): CompletionResult | null => {
     const node = syntaxTree(context.state).resolveInner(context.pos, -1);
     const word = context.matchBefore(/"[^"]*|[\w.-]*/);
@@ -53,8 +69,20 @@ function completions(schema: Schema) {
           info: key.description,
           apply: property ? `"${key.name}"` : `"${key.name}": `,
         }))
-      : wordsAt(schema, pathTo(context.state, node)).map((text) => ({ label: text, type: "enum" }));
-    return options.length === 0 ? null : { from: word.from, options, validFor: /^"?[\w.-]*"?$/ };
+      : [
+          ...namesAt(pathTo(context.state, node), names()).map((name) => ({
+            label: JSON.stringify(name),
+            type: "variable",
+            boost: 1,
+          })),
+          ...wordsAt(schema, pathTo(context.state, node)).map((text) => ({ label: text, type: "enum" })),
+        ];
+    // The quote that the editor has closed goes with what is chosen.
+    const isClosed =
+      context.state.sliceDoc(word.from, word.from + 1) === '"' &&
+      context.state.sliceDoc(context.pos, context.pos + 1) === '"';
+    const to = context.pos + (isClosed ? 1 : 0);
+    return options.length === 0 ? null : { from: word.from, to, options, validFor: /^"?[\w.-]*"?$/ };
   };
 }
 
@@ -77,11 +105,28 @@ function hover(schema: Schema): Extension {
   });
 }
 
+/// What the editor reports.
+export interface Listener {
+  changed: (isUnderTheHand: boolean) => void;
+  moved: (path: Path) => void; // the cursor, to what that path leads to
+  save: () => void;
+}
+
 export class Editor {
   readonly view: EditorView;
+  private dragged: string | null = null; // the text before what the hand moves
+  private isQuiet = false;
+  private readonly scheme = new Compartment();
 
-  constructor(parent: HTMLElement, schema: Schema, changed: (text: string) => void, save: () => void) {
-    const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  constructor(
+    parent: HTMLElement,
+    schema: Schema,
+    names: () => Names,
+    private listener: Listener,
+  ) {
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    const look = () => (dark.matches ? [oneDark] : []);
+    dark.addEventListener("change", () => this.view.dispatch({ effects: this.scheme.reconfigure(look()) }));
     this.view = new EditorView({
       parent,
       state: EditorState.create({
@@ -96,29 +141,80 @@ export class Editor {
           highlightActiveLine(),
           highlightSelectionMatches(),
           syntaxHighlighting(defaultHighlightStyle, { fallback: true }),
-          json(),
-          jsonLanguage.data.of({ autocomplete: completions(schema) }),
+          scenario(scenarioLanguage.data.of({ autocomplete: completions(schema, names) })),
           autocompletion(),
           hover(schema),
           lintGutter(),
           // Ctrl+M lets Tab move on, for those who have no mouse.
-          keymap.of([{ key: "Mod-s", run: () => (save(), true), preventDefault: true }, ...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...foldKeymap, ...completionKeymap, ...lintKeymap, indentWithTab]),
+          keymap.of([
+            { key: "Mod-s", run: () => (listener.save(), true), preventDefault: true },
+            ...closeBracketsKeymap,
+            ...defaultKeymap,
+            ...searchKeymap,
+            ...historyKeymap,
+            ...foldKeymap,
+            ...completionKeymap,
+            ...lintKeymap,
+            indentWithTab,
+          ]),
           EditorView.contentAttributes.of({ "aria-label": "Scenario, JSON" }),
           EditorView.updateListener.of((update) => {
-            if (update.docChanged) changed(this.text());
+            if (update.docChanged && !this.isQuiet) listener.changed(this.dragged !== null);
+            if (update.docChanged || update.selectionSet) listener.moved(this.path());
           }),
-          ...(isDark ? [oneDark] : []),
+          this.scheme.of(look()),
         ],
       }),
     });
+  }
+
+  /// What the cursor stands in.
+  path(): Path {
+    return pathTo(this.view.state, syntaxTree(this.view.state).resolveInner(this.view.state.selection.main.head, -1));
   }
 
   text(): string {
     return this.view.state.doc.toString();
   }
 
-  set(text: string): void {
-    this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+  /// A text that is loaded is no step of the history.
+  load(text: string): void {
+    this.view.dispatch({
+      changes: { from: 0, to: this.view.state.doc.length, insert: text },
+      annotations: Transaction.addToHistory.of(false),
+    });
+  }
+
+  /// Another text; one step back brings the one before.
+  replace(text: string): void {
+    this.view.dispatch({ changes: difference(this.text(), text), annotations: isolateHistory.of("full") });
+  }
+
+  /// The hand moves something: edits of the text as it was before. Many movements are one step of the history, made by drop().
+  drag(edits: (text: string) => Edit[]): void {
+    this.dragged ??= this.text();
+    this.show(applied(this.dragged, edits(this.dragged)));
+  }
+
+  isDragging(): boolean {
+    return this.dragged !== null;
+  }
+
+  drop(): void {
+    const before = this.dragged;
+    if (before === null) return;
+    const after = this.text();
+    this.isQuiet = true; // nobody works at the text that is passed on the way
+    this.show(before);
+    this.isQuiet = false;
+    this.dragged = null;
+    if (after !== before) this.replace(after);
+    else this.listener.changed(false);
+  }
+
+  private show(text: string): void {
+    if (text !== this.text())
+      this.view.dispatch({ changes: difference(this.text(), text), annotations: Transaction.addToHistory.of(false) });
   }
 
   /// Line and column count from 1, columns in code points; 0 is the whole file.
@@ -147,6 +243,13 @@ export class Editor {
     this.view.dispatch({ changes: edits, userEvent: "input" });
   }
 
+  /// To what a path leads to; false if nothing stands there.
+  goToPath(path: Path): boolean {
+    const found = place(this.text(), path);
+    if (found) this.goToOffset(found.from + 1); // within it, so that the cursor is in what is meant
+    return found !== null;
+  }
+
   goToOffset(anchor: number): void {
     this.view.dispatch({ selection: { anchor }, scrollIntoView: true });
     this.view.focus();
@@ -154,6 +257,12 @@ export class Editor {
 }
 
 export function textOf(each: Diagnostic): string {
-  const parts = [each.found ? `found ${each.found}` : "", each.expected ? `expected ${each.expected}` : ""].filter((part) => part !== "");
-  return each.message + (parts.length > 0 ? `: ${parts.join(", ")}` : "") + (each.suggestion ? ` (did you mean "${each.suggestion}"?)` : "");
+  const parts = [each.found ? `found ${each.found}` : "", each.expected ? `expected ${each.expected}` : ""].filter(
+    (part) => part !== "",
+  );
+  return (
+    each.message +
+    (parts.length > 0 ? `: ${parts.join(", ")}` : "") +
+    (each.suggestion ? ` (did you mean "${each.suggestion}"?)` : "")
+  );
 }

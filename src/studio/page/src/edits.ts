@@ -1,6 +1,7 @@
 // Edits of the text by hand: a member or an item more or less, with the indentation and the comments that stand there.
 import { jsonLanguage } from "@codemirror/lang-json";
 import type { SyntaxNode } from "@lezer/common";
+import type { Json } from "./api";
 
 export interface Edit {
   from: number;
@@ -10,9 +11,19 @@ export interface Edit {
 
 export type Path = (string | number)[];
 
+const stringsAndComments = /"(?:[^"\\\n]|\\.)*"|\/\/[^\n]*|\/\*[\s\S]*?\*\//g;
+
 /// The text with blanks for comments, which the parser does not know; every place stays where it is.
 export function withoutComments(text: string): string {
-  return text.replace(/"(?:[^"\\\n]|\\.)*"|\/\/[^\n]*|\/\*[\s\S]*?\*\//g, (found) => (found.startsWith('"') ? found : found.replace(/[^\n]/g, " ")));
+  return text.replace(stringsAndComments, (found) => (found.startsWith('"') ? found : found.replace(/[^\n]/g, " ")));
+}
+
+/// From where to where comments stand, in the order of the text.
+export function comments(text: string): [number, number][] {
+  const found: [number, number][] = [];
+  for (const each of text.matchAll(stringsAndComments))
+    if (!each[0].startsWith('"')) found.push([each.index, each.index + each[0].length]);
+  return found;
 }
 
 const values = new Set(["Object", "Array", "String", "Number", "True", "False", "Null"]);
@@ -33,7 +44,8 @@ function valueOf(property: SyntaxNode): SyntaxNode | null {
 
 function children(node: SyntaxNode): SyntaxNode[] {
   const found: SyntaxNode[] = [];
-  for (let each = node.firstChild; each; each = each.nextSibling) if (each.name === "Property" || values.has(each.name)) found.push(each);
+  for (let each = node.firstChild; each; each = each.nextSibling)
+    if (each.name === "Property" || values.has(each.name)) found.push(each);
   return found;
 }
 
@@ -55,13 +67,69 @@ export function place(text: string, path: Path): SyntaxNode | null {
   return found;
 }
 
-function containerAt(text: string, path: Path): SyntaxNode | null {
+/// The value that the path leads to.
+export function valueAt(text: string, path: Path): SyntaxNode | null {
   const found = place(text, path);
-  const value = found?.name === "Property" ? valueOf(found) : found;
+  return found?.name === "Property" ? valueOf(found) : found;
+}
+
+/// What a value says; of a broken one what can be read.
+function read(text: string, node: SyntaxNode): Json {
+  if (node.name === "Array") return children(node).map((each) => read(text, each));
+  if (node.name === "Object")
+    return Object.fromEntries(
+      children(node).map((each): [string, Json] => {
+        const value = valueOf(each);
+        return [nameOf(text, each), value ? read(text, value) : null];
+      }),
+    );
+  try {
+    return JSON.parse(text.slice(node.from, node.to)) as Json;
+  } catch {
+    return null;
+  }
+}
+
+export function readText(text: string): Json {
+  const whole = root(text);
+  return whole ? read(text, whole) : null;
+}
+
+/// Puts a value where the path leads to; a member that is not there is added to its object.
+export function put(text: string, path: Path, value: string): Edit[] {
+  const found = valueAt(text, path);
+  if (found) return [{ from: found.from, to: found.to, insert: value }];
+  const name = path[path.length - 1];
+  return typeof name === "string" ? (added(text, path.slice(0, -1), name, value) ?? []) : [];
+}
+
+/// The text after edits of it that do not overlap.
+export function applied(text: string, edits: Edit[]): string {
+  const order = [...edits].sort((a, b) => b.from - a.from || edits.indexOf(b) - edits.indexOf(a));
+  return order.reduce((now, edit) => now.slice(0, edit.from) + edit.insert + now.slice(edit.to), text);
+}
+
+/// The one edit that makes the second of two texts of the first.
+export function difference(before: string, after: string): Edit {
+  let from = 0;
+  while (from < after.length && from < before.length && after[from] === before[from]) ++from;
+  let behind = 0;
+  while (
+    behind < after.length - from &&
+    behind < before.length - from &&
+    after[after.length - 1 - behind] === before[before.length - 1 - behind]
+  )
+    ++behind;
+  return { from, to: before.length - behind, insert: after.slice(from, after.length - behind) };
+}
+
+function containerAt(text: string, path: Path): SyntaxNode | null {
+  const value = valueAt(text, path);
   return value && (value.name === "Object" || value.name === "Array") ? value : null;
 }
 
-const indentOf = (text: string, at: number): string => /^[ \t]*/.exec(text.slice(text.lastIndexOf("\n", at - 1) + 1, at))?.[0] ?? "";
+const indentOf = (text: string, at: number): string =>
+  /^[ \t]*/.exec(text.slice(text.lastIndexOf("\n", at - 1) + 1, at))?.[0] ?? "";
 
 /// One more thing at the end of an object or a list: `made` is its text, of an object with the name.
 function append(text: string, container: SyntaxNode, made: string): Edit[] {
@@ -92,7 +160,12 @@ export function added(text: string, path: Path, name: string | null, value: stri
   const key = path[path.length - 1];
   if (typeof key !== "string") return null;
   const inner = "  ".repeat(path.length);
-  return added(text, path.slice(0, -1), key, name === null ? `[\n${inner}  ${made}\n${inner}]` : `{\n${inner}  ${made}\n${inner}}`);
+  return added(
+    text,
+    path.slice(0, -1),
+    key,
+    name === null ? `[\n${inner}  ${made}\n${inner}]` : `{\n${inner}  ${made}\n${inner}}`,
+  );
 }
 
 /// Takes a property or item away, with its comma, and the line if it stood there alone.
@@ -137,10 +210,5 @@ export function withoutNode(text: string, name: string): { edit: Edit; links: nu
   const node = place(now, ["network", "nodes", name]);
   if (!node) return null;
   take(node);
-  // As one edit: what is before and behind stays as it is.
-  let from = 0;
-  while (from < now.length && now[from] === text[from]) ++from;
-  let behind = 0;
-  while (behind < now.length - from && now[now.length - 1 - behind] === text[text.length - 1 - behind]) ++behind;
-  return { edit: { from, to: text.length - behind, insert: now.slice(from, now.length - behind) }, links };
+  return { edit: difference(text, now), links }; // what is before and behind stays as it is
 }

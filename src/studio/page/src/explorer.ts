@@ -8,7 +8,8 @@ const faults = ["loss", "crash", "restart", "timeout", "duplicate", "reorder", "
 /// "slave 1 as Running, said in step 2; now Halted, since step 3".
 function words(belief: Belief): string {
   if (belief.heard === null) return `nothing of ${belief.of}, which is ${belief.now}`;
-  const step = (number: number | null) => (number === null ? "" : number === 0 ? "before the first step" : `in step ${number}`);
+  const step = (number: number | null) =>
+    number === null ? "" : number === 0 ? "before the first step" : `in step ${number}`;
   const since = belief.now_since === 0 ? "since the beginning" : `since step ${belief.now_since}`;
   return `${belief.of}: ${belief.word ?? belief.heard}, said ${step(belief.said_in)}${belief.is_true === false ? `; by now ${belief.now}, ${since}` : ""}`;
 }
@@ -51,12 +52,21 @@ class Stepper {
     const rows = this.run.participants.map((name): Cell[] => {
       const known = element("div");
       for (const belief of knowledge.filter((each) => each.who === name))
-        known.append(element("div", words(belief), `${belief.is_cause || belief.is_new ? "is-news" : ""} ${belief.is_true === false ? "undecided" : ""}`));
+        known.append(
+          element(
+            "div",
+            words(belief),
+            `${belief.is_cause || belief.is_new ? "is-news" : ""} ${belief.is_true === false ? "undecided" : ""}`,
+          ),
+        );
       const state = states[name] ?? "-";
       const isNew = this.at > 0 && before.states[name] !== state;
       return [{ text: name }, { text: state, look: isNew ? "is-news" : "" }, { child: known }];
     });
-    const made = [element("p", step ? `${step.step}. ${step.sentence}` : `At the beginning: ${this.run.beginning}`, "is-news"), table(["participant", "state", "what it knows of others"], rows)];
+    const made = [
+      element("p", step ? `${step.step}. ${step.sentence}` : `At the beginning: ${this.run.beginning}`, "is-news"),
+      table(["participant", "state", "what it knows of others"], rows),
+    ];
     for (const finding of step?.findings ?? []) made.push(element("p", finding, "fail"));
     if (this.at === this.run.steps.length) {
       if (this.run.cycle > 0) made.push(element("p", `the last ${this.run.cycle} steps repeat for ever`, "fail"));
@@ -87,7 +97,10 @@ export class ExplorerView {
   }
 
   open(): void {
-    if (byId("explore-found").childElementCount === 0 && this.asked === 0) this.say("every order of messages, calls and faults of a small group, up to 20 million states, in the order of the fewest steps");
+    if (byId("explore-found").childElementCount === 0 && this.asked === 0)
+      this.say(
+        "every order of messages, calls and faults of a small group, up to 20 million states, in the order of the fewest steps",
+      );
   }
 
   private say(text: string): void {
@@ -127,8 +140,17 @@ export class ExplorerView {
     const made: HTMLElement[] = [];
     for (const each of found) {
       made.push(element("h2", each.program ?? "The group"));
-      made.push(element("p", `${each.variant}, ${each.slaves} ${each.slaves === 1 ? "slave" : "slaves"}: ${each.states.toLocaleString("en")} states; ${each.exhausted ? "the whole space was searched" : "the space was not searched to its end"}`, "note"));
-      const rows = Object.entries(each.properties).map(([name, verdict]): Cell[] => [{ text: name }, { text: verdict, look: verdict === "violated" ? "fail" : verdict === "holds" ? "pass" : "note" }]);
+      made.push(
+        element(
+          "p",
+          `${each.variant}, ${each.slaves} ${each.slaves === 1 ? "slave" : "slaves"}: ${each.states.toLocaleString("en")} states; ${each.exhausted ? "the whole space was searched" : "the space was not searched to its end"}`,
+          "note",
+        ),
+      );
+      const rows = Object.entries(each.properties).map(([name, verdict]): Cell[] => [
+        { text: name },
+        { text: verdict, look: verdict === "violated" ? "fail" : verdict === "holds" ? "pass" : "note" },
+      ]);
       for (const run of each.violations ?? []) made.push(new Stepper(run).root);
       made.push(table(["property", ""], rows));
     }

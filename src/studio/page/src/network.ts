@@ -4,12 +4,16 @@ import { button, byId, element, field, input, select } from "./dom";
 import { added, place, withoutNode, type Edit } from "./edits";
 import type { Editor } from "./editor";
 
-const unit = 120;   // pixels between neighbouring switches
+const unit = 120; // pixels between neighbouring switches
 const margin = 60;
 const mostNames = 150;
 const space = "http://www.w3.org/2000/svg";
 
-function svg(name: string, attributes: Record<string, string | number>, ...children: (SVGElement | string)[]): SVGElement {
+export function svg(
+  name: string,
+  attributes: Record<string, string | number>,
+  ...children: (SVGElement | string)[]
+): SVGElement {
   const made = document.createElementNS(space, name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
   made.append(...children);
@@ -27,7 +31,14 @@ export class NetworkView {
   private kept = 0;
   private isDragged = false;
 
-  constructor(private editor: Editor) {
+  /// What is lit: the path of a stream, a node, a link.
+  private lit: { stream: string; nodes: string[] } = { stream: "", nodes: [] };
+
+  /// `look` shows the two ports of a link in the timeline.
+  constructor(
+    private editor: Editor,
+    private look: (a: string, b: string) => void,
+  ) {
     void engine.layout().then((layout) => {
       this.layout = layout;
       if (this.plant) this.draw();
@@ -39,6 +50,41 @@ export class NetworkView {
     if (JSON.stringify(plant) === JSON.stringify(this.plant)) return;
     this.plant = plant;
     this.draw();
+  }
+
+  /// The names of all nodes, also of those that a generator makes.
+  nodes(): string[] {
+    return this.plant?.nodes.map((each) => each.name) ?? [];
+  }
+
+  /// The path of a stream, or single nodes, or nothing.
+  light(stream: string, nodes: string[] = []): void {
+    if (stream === this.lit.stream && nodes.join() === this.lit.nodes.join()) return;
+    this.lit = { stream, nodes };
+    this.showLit();
+  }
+
+  /// The nodes on the path of a stream, each once.
+  pathOf(stream: string): string[] {
+    const names = (this.plant?.paths[stream] ?? []).flat().map((n) => this.plant?.nodes[n]?.name ?? "");
+    return [...new Set(names)];
+  }
+
+  private showLit(): void {
+    const plant = this.plant;
+    if (!plant) return;
+    const paths = plant.paths[this.lit.stream] ?? [];
+    const hops = new Set(
+      paths.flatMap((path) => path.slice(1).flatMap((to, n) => [`${path[n]}-${to}`, `${to}-${path[n]}`])),
+    );
+    for (const { line, a, b } of this.lines) line.classList.toggle("is-lit", hops.has(`${a}-${b}`));
+    const on = new Set([...paths.flat().map((n) => plant.nodes[n]?.name ?? ""), ...this.lit.nodes]);
+    for (const [name, shape] of this.shapes) shape.classList.toggle("is-lit", on.has(name));
+    const words = paths.map((path) => path.map((n) => plant.nodes[n]?.name ?? "").join(" to "));
+    byId("network-path").textContent =
+      words.length > 0
+        ? `${this.lit.stream}: ${words.slice(0, 3).join("; ")}${words.length > 3 ? ` and ${words.length - 3} more` : ""}`
+        : "";
   }
 
   private at(node: PlantNode): [number, number] {
@@ -53,12 +99,43 @@ export class NetworkView {
     const points = plant.nodes.map((node) => this.at(node));
     const xs = points.map(([x]) => x);
     const ys = points.map(([, y]) => y);
-    const box = [Math.min(...xs, 0) - margin, Math.min(...ys, 0) - margin, Math.max(...xs, 0) + margin, Math.max(...ys, 0) + margin] as const;
+    const box = [
+      Math.min(...xs, 0) - margin,
+      Math.min(...ys, 0) - margin,
+      Math.max(...xs, 0) + margin,
+      Math.max(...ys, 0) + margin,
+    ] as const;
     const [width, height] = [box[2] - box[0], box[3] - box[1]];
     const size = Math.min(Math.max(Math.max(width, height) / 90, 8), 60);
-    const drawing = svg("svg", { viewBox: `${box[0]} ${box[1]} ${width} ${height}`, width: Math.min(width, 2000), role: "group", "aria-label": "The network; Tab goes from node to node, arrow keys move one" });
+    const drawing = svg("svg", {
+      viewBox: `${box[0]} ${box[1]} ${width} ${height}`,
+      width: Math.min(width, 2000),
+      role: "group",
+      "aria-label": "The network; Tab goes from node to node, arrow keys move one",
+    });
     this.lines = plant.links.map((link) => {
-      const line = svg("line", { stroke: link.colour, "stroke-width": size / 3 }, titled(link.title));
+      const ends = [plant.nodes[link.a]?.name ?? "", plant.nodes[link.b]?.name ?? ""] as const;
+      const line = svg(
+        "g",
+        {
+          class: "link",
+          role: "button",
+          tabindex: 0,
+          "data-link": ends.join(" "),
+          "aria-label": `link from ${ends[0]} to ${ends[1]}; Enter shows it in the timeline`,
+        },
+        titled(`${link.title}; a click shows it in the timeline`),
+      );
+      line.append(
+        svg("line", { class: "wide", "stroke-width": Math.max(size, 12) }),
+        svg("line", { class: "thin", stroke: link.colour, "stroke-width": size / 3 }),
+      );
+      line.addEventListener("click", () => this.look(...ends));
+      line.addEventListener("keydown", (event) => {
+        if (event.key !== "Enter") return;
+        event.preventDefault();
+        this.look(...ends);
+      });
       const cross = link.failed ? svg("path", { class: "failed" }) : null;
       drawing.append(line);
       if (cross) drawing.append(cross);
@@ -66,12 +143,29 @@ export class NetworkView {
     });
     this.shapes.clear();
     for (const node of plant.nodes) {
-      const shape = svg("g", { class: "node", tabindex: 0, "data-node": node.name, role: "img", "aria-label": node.title });
+      const shape = svg("g", {
+        class: "node",
+        tabindex: 0,
+        "data-node": node.name,
+        role: "img",
+        "aria-label": node.title,
+      });
       const colour = node.failed ? "#c0392b" : node.kind === "host" ? "#009e73" : "#0072b2";
-      if (node.kind === "host") shape.append(svg("circle", { class: "mark", r: size * 0.8, fill: colour }, titled(node.title)));
-      else shape.append(svg("rect", { class: "mark", x: -size, y: -size, width: 2 * size, height: 2 * size, fill: colour }, titled(node.title)));
+      if (node.kind === "host")
+        shape.append(svg("circle", { class: "mark", r: size * 0.8, fill: colour }, titled(node.title)));
+      else
+        shape.append(
+          svg(
+            "rect",
+            { class: "mark", x: -size, y: -size, width: 2 * size, height: 2 * size, fill: colour },
+            titled(node.title),
+          ),
+        );
       if (node.kind === "station") shape.append(svg("circle", { r: size * 0.55, fill: "#009e73" }));
-      if (plant.nodes.length <= mostNames) shape.append(svg("text", { y: -size - 4, "text-anchor": "middle", "font-size": Math.max(size * 1.2, 11) }, node.name));
+      if (plant.nodes.length <= mostNames)
+        shape.append(
+          svg("text", { y: -size - 4, "text-anchor": "middle", "font-size": Math.max(size * 1.2, 11) }, node.name),
+        );
       this.listenTo(shape, node);
       this.shapes.set(node.name, shape);
       drawing.append(shape);
@@ -86,7 +180,10 @@ export class NetworkView {
     }
     if (plant.hidden > 0) legend.append(`${plant.hidden} hosts that hang on one switch are not drawn. `);
     if (this.layout.nodes) legend.append(button("as it was laid out", () => void this.forget()));
-    byId("network").replaceChildren(drawing, legend);
+    const path = element("p", "", "note");
+    path.id = "network-path";
+    byId("network").replaceChildren(drawing, path, legend);
+    this.showLit();
     if (focused) (this.shapes.get(focused) as unknown as HTMLElement | undefined)?.focus();
     this.names.replaceChildren(...plant.nodes.map((node) => new Option("", node.name)));
   }
@@ -103,7 +200,13 @@ export class NetworkView {
       const [from, to] = [plant.nodes[a], plant.nodes[b]];
       if (!from || !to) continue;
       const [[x1, y1], [x2, y2]] = [this.at(from), this.at(to)];
-      for (const [key, value] of [["x1", x1], ["y1", y1], ["x2", x2], ["y2", y2]] as const) line.setAttribute(key, String(value));
+      for (const [key, value] of [
+        ["x1", x1],
+        ["y1", y1],
+        ["x2", x2],
+        ["y2", y2],
+      ] as const)
+        for (const each of line.querySelectorAll("line")) each.setAttribute(key, String(value));
       const [mx, my] = [(x1 + x2) / 2, (y1 + y2) / 2];
       cross?.setAttribute("d", `M${mx - 7} ${my - 7}l14 14m0-14l-14 14`);
     }
@@ -115,7 +218,7 @@ export class NetworkView {
     this.put(this.plant?.nodes.indexOf(node) ?? -1);
     clearTimeout(this.kept);
     this.kept = window.setTimeout(() => {
-      if (!this.isDragged) this.draw();   // the picture may have grown
+      if (!this.isDragged) this.draw(); // the picture may have grown
       void this.keep();
     }, 300);
   }
@@ -184,16 +287,17 @@ export class NetworkView {
   }
 
   private goTo(name: string): void {
-    const found = place(this.editor.text(), ["network", "nodes", name]);
-    if (found) this.editor.goToOffset(found.from);
-    else this.tell(`${name} does not stand in the text: something else makes it`);
+    if (!this.editor.goToPath(["network", "nodes", name]))
+      this.tell(`${name} does not stand in the text: something else makes it`);
   }
 
   private remove(name: string): void {
     const found = withoutNode(this.editor.text(), name);
     if (!found) return this.tell(`${name} does not stand in the text: something else makes it`);
     this.editor.change([found.edit]);
-    this.tell(`${name} is gone${found.links > 0 ? `, with ${found.links} ${found.links === 1 ? "link" : "links"}` : ""}; Ctrl+Z in the text brings it back`);
+    this.tell(
+      `${name} is gone${found.links > 0 ? `, with ${found.links} ${found.links === 1 ? "link" : "links"}` : ""}; Ctrl+Z in the text brings it back`,
+    );
   }
 
   private addForms(): void {
@@ -217,7 +321,11 @@ export class NetworkView {
       return false;
     };
     const node = input("", 12);
-    const kind = select([["host", "host"], ["switch", "switch"], ["station", "station"]]);
+    const kind = select([
+      ["host", "host"],
+      ["switch", "switch"],
+      ["station", "station"],
+    ]);
     const [a, b] = [input("", 12, "node-names"), input("", 12, "node-names")];
     const [rate, length] = [input("1Gbps", 8), input("10m", 6)];
     const stream = input("", 12);
@@ -226,20 +334,62 @@ export class NetworkView {
     const quoted = JSON.stringify;
     byId("edits").append(
       this.names,
-      form("Add node", [["name", node], ["", kind]], () => {
-        if (node.value.trim() === "") return this.tell("a node wants a name");
-        if (isNew(["network", "nodes", node.value], node.value)) this.change(added(text(), ["network", "nodes"], node.value, `{"kind": ${quoted(kind.value)}}`), `${node.value} is added`);
-      }),
-      form("Add link", [["from", a], ["to", b], ["rate", rate], ["length", length]], () =>
-        this.change(added(text(), ["network", "links"], null, `{"ends": [${quoted(a.value)}, ${quoted(b.value)}], "rate": ${quoted(rate.value)}, "length": ${quoted(length.value)}}`), `a link from ${a.value} to ${b.value} is added`),
+      form(
+        "Add node",
+        [
+          ["name", node],
+          ["", kind],
+        ],
+        () => {
+          if (node.value.trim() === "") return this.tell("a node wants a name");
+          if (isNew(["network", "nodes", node.value], node.value))
+            this.change(
+              added(text(), ["network", "nodes"], node.value, `{"kind": ${quoted(kind.value)}}`),
+              `${node.value} is added`,
+            );
+        },
       ),
-      form("Add stream", [["name", stream], ["from", from], ["to", to], ["payload", payload], ["every", every]], () => {
-        if (stream.value.trim() === "") return this.tell("a stream wants a name");
-        this.change(
-          added(text(), ["streams"], null, `{"name": ${quoted(stream.value)}, "from": ${quoted(from.value)}, "to": ${quoted(to.value)}, "payload": ${quoted(payload.value)}, "every": ${quoted(every.value)}}`),
-          `stream ${stream.value} is added`,
-        );
-      }),
+      form(
+        "Add link",
+        [
+          ["from", a],
+          ["to", b],
+          ["rate", rate],
+          ["length", length],
+        ],
+        () =>
+          this.change(
+            added(
+              text(),
+              ["network", "links"],
+              null,
+              `{"ends": [${quoted(a.value)}, ${quoted(b.value)}], "rate": ${quoted(rate.value)}, "length": ${quoted(length.value)}}`,
+            ),
+            `a link from ${a.value} to ${b.value} is added`,
+          ),
+      ),
+      form(
+        "Add stream",
+        [
+          ["name", stream],
+          ["from", from],
+          ["to", to],
+          ["payload", payload],
+          ["every", every],
+        ],
+        () => {
+          if (stream.value.trim() === "") return this.tell("a stream wants a name");
+          this.change(
+            added(
+              text(),
+              ["streams"],
+              null,
+              `{"name": ${quoted(stream.value)}, "from": ${quoted(from.value)}, "to": ${quoted(to.value)}, "payload": ${quoted(payload.value)}, "every": ${quoted(every.value)}}`,
+            ),
+            `stream ${stream.value} is added`,
+          );
+        },
+      ),
       form("Remove", [["node", this.chosen]], () => this.remove(this.chosen.value)),
     );
   }

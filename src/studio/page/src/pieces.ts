@@ -7,18 +7,19 @@ const bucketCount = 512;
 /// One port in one piece of time. Starts count from the beginning of the piece, in ps.
 export interface PieceRow {
   count: number;
-  starts: Float64Array | null;   // null: too many to be told one by one
+  starts: Float64Array | null; // null: too many to be told one by one
   lengths: Float32Array;
   streams: Uint32Array;
   sequences: Uint32Array;
   flags: Uint32Array;
-  picture: HTMLCanvasElement | null;   // of how busy the port is, one pixel high
+  picture: HTMLCanvasElement | null; // of how busy the port is, one pixel high
+  discarded: Uint8Array; // of that picture: frames that ended there, by part of the time
   gateTimes: Float64Array;
   gates: Uint32Array;
 }
 
 export interface Piece {
-  begin: number;   // ps from the beginning of the timeline
+  begin: number; // ps from the beginning of the timeline
   length: number;
   rows: PieceRow[];
 }
@@ -26,7 +27,11 @@ export interface Piece {
 export const flag = { continued: 1, cut: 2, dropped: 4 };
 export const classOf = (flags: number): number => flags >> 8;
 
-function picture(streams: Uint32Array, busy: Uint8Array, colour: (stream: number) => [number, number, number]): HTMLCanvasElement {
+function picture(
+  streams: Uint32Array,
+  busy: Uint8Array,
+  colour: (stream: number) => [number, number, number],
+): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = bucketCount;
   canvas.height = 1;
@@ -43,7 +48,12 @@ function picture(streams: Uint32Array, busy: Uint8Array, colour: (stream: number
   return canvas;
 }
 
-export function decoded(octets: ArrayBuffer, begin: number, length: number, colour: (stream: number) => [number, number, number]): Piece {
+export function decoded(
+  octets: ArrayBuffer,
+  begin: number,
+  length: number,
+  colour: (stream: number) => [number, number, number],
+): Piece {
   const head = new Uint32Array(octets, 0, 2 + 6 * (new Uint32Array(octets, 0, 1)[0] ?? 0));
   const rows: PieceRow[] = [];
   for (let i = 0; i < (head[0] ?? 0); ++i) {
@@ -57,7 +67,14 @@ export function decoded(octets: ArrayBuffer, begin: number, length: number, colo
       streams: new Uint32Array(octets, at + 12 * n, n),
       sequences: new Uint32Array(octets, at + 16 * n, n),
       flags: new Uint32Array(octets, at + 20 * n, n),
-      picture: isExact ? null : picture(new Uint32Array(octets, at, bucketCount), new Uint8Array(octets, at + 4 * bucketCount, bucketCount), colour),
+      picture: isExact
+        ? null
+        : picture(
+            new Uint32Array(octets, at, bucketCount),
+            new Uint8Array(octets, at + 4 * bucketCount, bucketCount),
+            colour,
+          ),
+      discarded: isExact ? new Uint8Array() : new Uint8Array(octets, at + 5 * bucketCount, bucketCount),
       gateTimes: new Float64Array(octets, gatesAt, gateCount),
       gates: new Uint32Array(octets, gatesAt + 8 * gateCount, gateCount),
     });
@@ -67,7 +84,7 @@ export function decoded(octets: ArrayBuffer, begin: number, length: number, colo
 
 /// Asks for pieces, the last wanted first, and forgets those that were not seen for long.
 export class Pieces {
-  private kept = new Map<string, Piece>();   // in the order in which they were last seen
+  private kept = new Map<string, Piece>(); // in the order in which they were last seen
   private wanted: { key: string; level: number; index: number; group: number }[] = [];
   private underWay = new Set<string>();
   private readonly most = 600;
@@ -118,7 +135,7 @@ export class Pieces {
           while (this.kept.size > this.most) this.kept.delete(this.kept.keys().next().value as string);
           this.came();
         })
-        .catch(() => undefined)   // another text has come
+        .catch(() => undefined) // another text has come
         .finally(() => {
           this.underWay.delete(next.key);
           this.fetch();

@@ -1,25 +1,19 @@
 // Which run the timeline shows: the scenario as it is, or the worst that was found for a requirement.
 import { engine, type Findings, type Look } from "./api";
 import { byId } from "./dom";
+import { duration } from "./gates";
 import { Timeline } from "./timeline";
 
-const units: Record<string, number> = { s: 1e12, ms: 1e9, us: 1e6, ns: 1e3, ps: 1 };
-
-/// "1.5ms" in ps; null if it is none.
-function duration(text: string): number | null {
-  const parts = /^\s*(\d+(?:\.\d+)?)\s*(s|ms|us|ns|ps)\s*$/.exec(text);
-  return parts ? Math.round(Number(parts[1]) * (units[parts[2] ?? ""] ?? 0)) : null;
-}
-
 export class RunView {
-  private readonly timeline = new Timeline();
+  readonly timeline = new Timeline();
+  private between: [string, string][] = []; // whose ports are to be shown, as soon as there is a timeline
   private readonly run = byId("timeline-run") as HTMLSelectElement;
   private readonly from = byId("timeline-from") as HTMLInputElement;
   private revision = 0;
-  private isReady = false;       // the text is sound
+  private isReady = false; // the text is sound
   private isSeen = false;
-  private wanted = -1;           // the requirement whose worst run is shown, or -1
-  private explains = false;      // that run is to be explained, too
+  private wanted = -1; // the requirement whose worst run is shown, or -1
+  private explains = false; // that run is to be explained, too
   private isLoading = false;
 
   constructor() {
@@ -35,12 +29,29 @@ export class RunView {
     this.refresh();
   }
 
+  /// Shows only the ports between those pairs of nodes.
+  lookAt(between: [string, string][]): void {
+    this.between = between;
+    this.showBetween();
+  }
+
+  private showBetween(): void {
+    if (this.between.length === 0 || !this.timeline.isLoaded()) return;
+    const names = this.between.map(([a]) => a);
+    this.timeline.showPorts(names, (node, to) =>
+      this.between.some(([a, b]) => (node === a && to === b) || (node === b && to === a)),
+    );
+    this.between = [];
+  }
+
   setSeen(isSeen: boolean): void {
     this.isSeen = isSeen;
     this.refresh();
   }
 
-  know(found: Findings): void {
+  /// While the hand moves something the run that it has begun from stays.
+  know(found: Findings, isUnderTheHand = false): void {
+    if (isUnderTheHand) return;
     this.revision = found.revision;
     this.isReady = found.result !== null;
     this.list(found);
@@ -48,9 +59,18 @@ export class RunView {
   }
 
   private list(found: Findings | null): void {
-    const worst = (found?.proofs?.requirements ?? []).map((each, n): [number, string] | null => (each.adversarial_ps === null ? null : [n, each.text])).filter((each) => each !== null);
-    const options = [new Option("as it is", "-1"), ...worst.map(([n, text]) => new Option(`worst found: ${text}`, String(n)))];
-    if (options.length === this.run.options.length && options.every((each, n) => this.run.options[n]?.text === each.text)) return;
+    const worst = (found?.proofs?.requirements ?? [])
+      .map((each, n): [number, string] | null => (each.adversarial_ps === null ? null : [n, each.text]))
+      .filter((each) => each !== null);
+    const options = [
+      new Option("as it is", "-1"),
+      ...worst.map(([n, text]) => new Option(`worst found: ${text}`, String(n))),
+    ];
+    if (
+      options.length === this.run.options.length &&
+      options.every((each, n) => this.run.options[n]?.text === each.text)
+    )
+      return;
     this.run.replaceChildren(...options);
     this.run.value = String(this.wanted);
     // While the search for the worst goes on the choice stays.
@@ -62,7 +82,8 @@ export class RunView {
   }
 
   private async load(): Promise<void> {
-    const from = duration(this.from.value);
+    const asked = duration(this.from.value);
+    const from = asked !== null && asked >= 0 ? asked : null;
     this.from.setAttribute("aria-invalid", String(from === null));
     const look: Look = { revision: this.revision, requirement: this.wanted, from: from ?? 0 };
     if (!this.isSeen || !this.isReady || from === null || this.isLoading) return;
@@ -71,6 +92,7 @@ export class RunView {
     this.isLoading = true;
     try {
       if (!isShown) await this.timeline.load(look);
+      this.showBetween();
       if (this.explains) {
         this.explains = false;
         this.timeline.showExplained(await engine.explainWorst(look));
@@ -82,6 +104,6 @@ export class RunView {
       return;
     }
     this.isLoading = false;
-    this.refresh();   // what was asked for meanwhile
+    this.refresh(); // what was asked for meanwhile
   }
 }

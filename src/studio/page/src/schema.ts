@@ -3,7 +3,8 @@ import type { Json } from "./api";
 
 export type Schema = { [key: string]: Json };
 
-const isObject = (value: Json | undefined): value is Schema => typeof value === "object" && value !== null && !Array.isArray(value);
+const isObject = (value: Json | undefined): value is Schema =>
+  typeof value === "object" && value !== null && !Array.isArray(value);
 
 /// The schemas that a schema stands for: references followed, alternatives and parts taken apart.
 function parts(root: Schema, schema: Schema, depth = 0): Schema[] {
@@ -12,12 +13,14 @@ function parts(root: Schema, schema: Schema, depth = 0): Schema[] {
   const reference = schema["$ref"];
   if (typeof reference === "string" && reference.startsWith("#/")) {
     let at: Json | undefined = root;
-    for (const step of reference.slice(2).split("/")) at = isObject(at) ? at[step.replaceAll("~1", "/").replaceAll("~0", "~")] : undefined;
+    for (const step of reference.slice(2).split("/"))
+      at = isObject(at) ? at[step.replaceAll("~1", "/").replaceAll("~0", "~")] : undefined;
     if (isObject(at)) found.push(...parts(root, at, depth + 1));
   }
   for (const key of ["allOf", "anyOf", "oneOf"]) {
     const several = schema[key];
-    if (Array.isArray(several)) for (const each of several) if (isObject(each)) found.push(...parts(root, each, depth + 1));
+    if (Array.isArray(several))
+      for (const each of several) if (isObject(each)) found.push(...parts(root, each, depth + 1));
   }
   for (const key of ["if", "then", "else"]) {
     const each = schema[key];

@@ -26,7 +26,8 @@ export class StudiesView {
     const chosen = this.file.value;
     this.file.replaceChildren(...known.map((name) => new Option(name, name)));
     if (known.includes(chosen)) this.file.value = chosen;
-    if (known.length === 0) this.say("no study file (with factors and measures) stands beside the scenario or in its folder studies");
+    if (known.length === 0)
+      this.say("no study file (with factors and measures) stands beside the scenario or in its folder studies");
   }
 
   private async start(): Promise<void> {
@@ -44,7 +45,13 @@ export class StudiesView {
         progress.hidden = false;
         progress.max = Math.max(of, 1);
         progress.value = points;
-        const state = found.running ? "" : found.status === 0 ? "; done" : found.problem !== "" ? `; ${found.problem.trim()}` : "; stopped";
+        const state = found.running
+          ? ""
+          : found.status === 0
+            ? "; done"
+            : found.problem !== ""
+              ? `; ${found.problem.trim()}`
+              : "; stopped";
         this.say(`${points} of ${of === 0 ? "?" : of} points${state}`);
         // A page that is loaded anew goes back to its top, so it is not done all the time.
         if (found.report && points !== shown && (Date.now() >= next || !found.running)) {

@@ -1,7 +1,7 @@
 // The views beside the text, one at a time; arrows go from tab to tab.
 import { byId } from "./dom";
 
-export type View = "findings" | "timeline" | "explorer" | "compare" | "studies";
+export type View = "findings" | "timeline" | "gates" | "explorer" | "compare" | "studies";
 
 export class Tabs {
   private readonly tabs = [...byId("tabs").querySelectorAll<HTMLButtonElement>("[role=tab]")];

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "json/csv.hpp"
+#include "output/streaming_file.hpp"
 #include "results/result_json.hpp"
 
 namespace takt::output {
@@ -77,7 +78,7 @@ std::string write_file(const std::string& path, const std::string& content) {
   if (!error && to.has_parent_path()) fs::create_directories(to.parent_path(), error);
   if (error) return path + ": " + error.message();
   const std::string temporary = is_stream ? to.string() : to.string() + ".part";
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int file = is_stream ? ::open(temporary.c_str(), O_WRONLY | O_CLOEXEC) : open_part(temporary, to.string());
   if (file < 0) return failure(temporary);
   std::size_t written = 0;
   bool good = true;

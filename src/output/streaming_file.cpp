@@ -1,6 +1,7 @@
 #include "output/streaming_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,9 +11,19 @@
 
 namespace takt::output {
 
+int open_part(const std::string& temporary, const std::string& target) {
+  struct stat status = {};
+  const bool replaces = ::stat(target.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  ::unlink(temporary.c_str());  // of a process that was killed
+  const int file =
+      ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, replaces ? 0600 : 0644);
+  if (file >= 0 && replaces) ::fchmod(file, status.st_mode & 0777);
+  return file;
+}
+
 StreamingFile::StreamingFile(std::string path) : path_(std::move(path)), temporary_(path_ + ".part") {
   buffer_.reserve(buffer_size);
-  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  file_ = open_part(temporary_, path_);
   if (file_ < 0) fail(temporary_);
 }
 

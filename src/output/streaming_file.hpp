@@ -6,6 +6,10 @@
 
 namespace takt::output {
 
+/// Opens a new file `temporary` that is to replace `target`, and never one that somebody has put there. It is as
+/// private as what it replaces. Below 0 if that fails (errno).
+int open_part(const std::string& temporary, const std::string& target);
+
 class StreamingFile {
  public:
   /// Opens path + ".part".

@@ -1,6 +1,11 @@
 #include "output/streaming_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 
 #include "tests/output/recording.hpp"
 
@@ -42,13 +47,41 @@ TEST(StreamingFile, SaysWhatWentWrong) {
 }
 
 TEST(StreamingFile, AFullDiskIsAnError) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   Folder folder;
-  std::filesystem::create_symlink("/dev/full", folder / "text.part");
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little = {100, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
+  StreamingFile file(folder / "text");
+  file.write(std::string(1000, 'x'));
+  EXPECT_NE(file.close(), "");
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_TRUE(folder.empty());
+}
+
+// What somebody has put in the place of the part is not written through.
+TEST(StreamingFile, ALinkIsNotFollowed) {
+  Folder folder;
+  std::ofstream(folder / "other") << "of somebody";
+  std::filesystem::create_symlink(folder / "other", folder / "text.part");
   StreamingFile file(folder / "text");
   file.write("x");
-  EXPECT_NE(file.close(), "");
-  EXPECT_FALSE(std::filesystem::exists(folder / "text"));
+  EXPECT_EQ(file.close(), "");
+  EXPECT_EQ(content_of(folder / "text"), "x");
+  EXPECT_EQ(content_of(folder / "other"), "of somebody");
+}
+
+TEST(StreamingFile, APrivateFileStaysPrivate) {
+  namespace fs = std::filesystem;
+  Folder folder;
+  std::ofstream(folder / "text") << "before";
+  fs::permissions(folder / "text", fs::perms::owner_read | fs::perms::owner_write);
+  StreamingFile file(folder / "text");
+  EXPECT_EQ(fs::status(folder / "text.part").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  file.write("behind");
+  EXPECT_EQ(file.close(), "");
+  EXPECT_EQ(fs::status(folder / "text").permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
 }  // namespace

@@ -40,10 +40,16 @@ const KeyServiceStatus& key_service_of(const SecurityStatus& status) { return *s
 const json::Record& describe(json::Type<SecurityStatus>) {
   static constexpr json::Output outputs[] = {
       json::output<&SecurityStatus::group>("group", "The SecurityGroup."),
-      json::output<&SecurityStatus::token>("token", "SecurityTokenId of the key that it sends with; 0: it has sent nothing yet."),
+      json::output<&SecurityStatus::token>(
+          "token", "SecurityTokenId of the key that it sends with; 0: it has sent nothing yet."),
       json::output<&SecurityStatus::life>("life", "Another one at each start; part of every nonce."),
-      json::output<&SecurityStatus::unsealed>("unsealed", "Messages that were not sent because there was no key for them."),
-      json::only_if<&pulls_keys>(json::output<&key_service_of>("key_service", "Where its keys come from."), "of a node that pulls its keys"),
+      json::output<&SecurityStatus::clock_returns>(
+          "clock_returns",
+          "How often its clock was ahead by more than a key, and came back: each time it began another life."),
+      json::output<&SecurityStatus::unsealed>("unsealed",
+                                              "Messages that were not sent because there was no key for them."),
+      json::only_if<&pulls_keys>(json::output<&key_service_of>("key_service", "Where its keys come from."),
+                                 "of a node that pulls its keys"),
   };
   static constexpr json::Record record{"security_status", "The secured messages of a node.", outputs};
   return record;
@@ -51,7 +57,8 @@ const json::Record& describe(json::Type<SecurityStatus>) {
 
 std::unique_ptr<NodeSecurity> NodeSecurity::make(const LoadedConfig& loaded, KeyMailbox* mailbox, std::string& problem) {
   const MessageSecurity& security = *loaded.config.security;
-  auto memory = SecurityMemory::open(security.memory.value_or(default_memory_path(loaded.config.node)), problem);
+  auto memory = SecurityMemory::open(security.memory.value_or(default_memory_path(loaded.config.node)),
+                                     security.key_lifetime, problem);
   if (!memory) return nullptr;
   const std::uint16_t sender = loaded.programs.empty() ? loaded.sender : sender_of(loaded.programs.front());
   const security::ChannelSettings settings{security.mode, security.nonces, sender, memory->life()};
@@ -75,15 +82,24 @@ std::int64_t NodeSecurity::now_ns() const {
   return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
 }
 
+std::int64_t NodeSecurity::look_at_clock() {
+  const std::int64_t now = now_ns();
+  if (mailbox_ == nullptr && channel_.keys().was_ahead(now)) {
+    channel_.begin_anew(memory_->begin_life(), now);
+    ++clock_returns_;
+  }
+  return now;
+}
+
 auto NodeSecurity::open(uadp::Octets message) -> Opened {
   take_keys();
-  const security::Opened opened = channel_.open(message, now_ns());
+  const security::Opened opened = channel_.open(message, look_at_clock());
   if (opened.wants_keys && mailbox_ != nullptr) mailbox_->wish();
   return {verdicts[static_cast<std::size_t>(opened.verdict)], opened.clear};
 }
 
 SecurityStatus NodeSecurity::status() {
-  SecurityStatus status{group_, channel_.token(), channel_.unsealed(), channel_.settings().life};
+  SecurityStatus status{group_, channel_.token(), channel_.unsealed(), channel_.settings().life, clock_returns_};
   if (mailbox_ == nullptr) return status;
   if (auto state = mailbox_->state()) key_service_ = std::move(*state);
   status.key_service = status_of(key_service_, now_ns());

@@ -21,6 +21,7 @@ struct SecurityStatus {
   std::uint32_t token = 0;               ///< that it sends with; 0: none yet
   std::uint64_t unsealed = 0;
   std::uint32_t life = 0;
+  std::uint64_t clock_returns = 0;  ///< how often the clock was ahead by more than a key, and came back
   std::optional<KeyServiceStatus> key_service = {};   ///< nothing: keys are of a file
 };
 const json::Record& describe(json::Type<SecurityStatus>);
@@ -34,7 +35,7 @@ class NodeSecurity {
   /// Empty if it cannot be sent now; counted.
   uadp::Octets seal(uadp::Octets clear) {
     take_keys();
-    return channel_.seal(clear, now_ns());
+    return channel_.seal(clear, look_at_clock());
   }
   struct Opened {
     wire::Verdict verdict = wire::Verdict::taken;
@@ -47,12 +48,16 @@ class NodeSecurity {
   NodeSecurity(std::string group, security::KeyRing keys, const security::ChannelSettings& settings, std::unique_ptr<SecurityMemory> memory, int clock, KeyMailbox* mailbox);
   void take_keys();
   std::int64_t now_ns() const;
+  /// Now. A clock that was far ahead and has come back is followed; without that nobody would hear this node, nor it
+  /// them.
+  std::int64_t look_at_clock();
 
   std::string group_;
   std::unique_ptr<SecurityMemory> memory_;
   int clock_;
   KeyMailbox* mailbox_;                  ///< null: keys are of a file
   security::SecureChannel channel_;
+  std::uint64_t clock_returns_ = 0;
   KeyServiceState key_service_;          ///< as it was told last
 };
 

@@ -4,13 +4,13 @@
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
-
-#include "security/random.hpp"
 
 namespace takt::node {
 namespace {
@@ -32,6 +32,32 @@ void make_folders(const std::string& path) {
   for (std::size_t slash = path.find('/', 1); slash != std::string::npos; slash = path.find('/', slash + 1)) ::mkdir(path.substr(0, slash).c_str(), 0700);
 }
 
+/// A key is used for three lifetimes at most, and lives are in the order of serial numbers of 16 bits: so many units
+/// are half of them.
+constexpr std::int64_t units_of_three_lifetimes = 1 << 15;
+/// Nothing begins anew so quickly.
+constexpr std::int64_t shortest_unit_ns = 50'000'000;
+
+std::int64_t time_of_day_ns() {
+  timespec time = {};
+  ::clock_gettime(CLOCK_REALTIME, &time);
+  return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+}
+
+/// 32 bits, of which messages have 16.
+std::uint32_t life_at(std::int64_t now_ns, std::int64_t unit_ns) {
+  return static_cast<std::uint32_t>(now_ns / unit_ns);
+}
+bool is_later_life(std::uint32_t life, std::uint32_t other) {
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(life - other)) > 0;
+}
+
+void wait_ns(std::int64_t length_ns) {
+  timespec left = {static_cast<time_t>(length_ns / 1'000'000'000), static_cast<long>(length_ns % 1'000'000'000)};
+  while (::nanosleep(&left, &left) != 0 && errno == EINTR) {
+  }
+}
+
 }  // namespace
 
 struct SecurityMemory::Contents {
@@ -47,7 +73,8 @@ std::string default_memory_path(std::string_view node) {
   return folder() + "/" + name + ".memory";
 }
 
-std::unique_ptr<SecurityMemory> SecurityMemory::open(const std::string& path, std::string& problem) {
+std::unique_ptr<SecurityMemory> SecurityMemory::open(const std::string& path, sim::Duration key_lifetime,
+                                                     std::string& problem) {
   const auto fail = [&](const std::string& what) {
     problem = what + " (the memory of what was signed and heard, " + path + ")";
     return nullptr;
@@ -59,22 +86,30 @@ std::unique_ptr<SecurityMemory> SecurityMemory::open(const std::string& path, st
   if (::fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != ::geteuid() || (status.st_mode & 077) != 0)
     return fail("not a file of this user with mode 0600");
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) return fail("another node has it");
-  const bool is_new = status.st_size == 0;
-  if (!is_new && static_cast<std::size_t>(status.st_size) != sizeof(Contents)) return fail("a file of something else");
-  if (is_new && ::ftruncate(file.number(), sizeof(Contents)) != 0) return fail(what_failed("no room"));
+  const bool is_empty = status.st_size == 0;
+  if (!is_empty && static_cast<std::size_t>(status.st_size) != sizeof(Contents))
+    return fail("a file of something else");
+  // All of it is there before it is mapped: a disk that is full later does not end the process when it writes into a
+  // hole.
+  if (const int error = ::posix_fallocate(file.number(), 0, sizeof(Contents)); error != 0) {
+    if (is_empty) static_cast<void>(!::ftruncate(file.number(), 0));
+    errno = error;
+    return fail(what_failed("no room"));
+  }
   void* const mapped = ::mmap(nullptr, sizeof(Contents), PROT_READ | PROT_WRITE, MAP_SHARED, file.number(), 0);
   if (mapped == MAP_FAILED) return fail(what_failed("not mapped"));
   auto& contents = *static_cast<Contents*>(mapped);
   std::unique_ptr<SecurityMemory> memory(new SecurityMemory(std::move(file), contents));
+  const std::int64_t unit_ns = std::max(key_lifetime.ps() / 1000 * 3 / units_of_three_lifetimes, shortest_unit_ns);
+  const bool is_new = contents.kind == 0;  // empty, or its first start was cut short
   if (is_new) {
-    // Begins anywhere: a file that was lost does not lead back to lives that have been.
-    std::array<std::byte, 4> random;
-    security::SystemRandom().fill(random);
+    const std::int64_t now_ns = time_of_day_ns();
+    wait_ns(unit_ns - now_ns % unit_ns);
     contents.kind = magic;
-    contents.life = sim::load<std::uint32_t>(random.data(), sim::ByteOrder::little);
   }
   if (contents.kind != magic) return fail("a file of something else");
-  ++contents.life;
+  const std::uint32_t by_time = life_at(time_of_day_ns(), unit_ns);
+  contents.life = is_new || is_later_life(by_time, contents.life + 1) ? by_time : contents.life + 1;
   if (::msync(mapped, sizeof(Contents), MS_SYNC) != 0) return fail(what_failed("not written"));
   return memory;
 }
@@ -82,6 +117,11 @@ std::unique_ptr<SecurityMemory> SecurityMemory::open(const std::string& path, st
 SecurityMemory::~SecurityMemory() { ::munmap(contents_, sizeof(Contents)); }
 
 std::uint16_t SecurityMemory::life() const { return static_cast<std::uint16_t>(contents_->life); }
+
+std::uint16_t SecurityMemory::begin_life() {
+  ++contents_->life;
+  return life();
+}
 
 security::ReplayMemory SecurityMemory::windows() { return security::ReplayMemory(contents_->windows); }
 

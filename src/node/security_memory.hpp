@@ -7,6 +7,7 @@
 
 #include "node/socket.hpp"
 #include "security/replay_window.hpp"
+#include "sim/time.hpp"
 
 namespace takt::node {
 
@@ -15,13 +16,19 @@ std::string default_memory_path(std::string_view node);
 
 class SecurityMemory {
  public:
-  /// Null, and `problem` says why, if it cannot be had, belongs to another user, or another process has it. A new life begins, and that is on the disk when this returns.
-  static std::unique_ptr<SecurityMemory> open(const std::string& path, std::string& problem);
+  /// Null, and `problem` says why, if it cannot be had, belongs to another user, another process has it, or the disk is
+  /// full. A new life begins, and that is on the disk when this returns. It is one more than the last one, and not
+  /// before the time of day in units of which a key's lifetime has few enough to be ordered; so a node that has lost
+  /// its memory begins behind its lives before. It waits for the next unit then: none of them can have begun in it.
+  static std::unique_ptr<SecurityMemory> open(const std::string& path, sim::Duration key_lifetime,
+                                              std::string& problem);
   ~SecurityMemory();
   SecurityMemory(const SecurityMemory&) = delete;
   SecurityMemory& operator=(const SecurityMemory&) = delete;
 
   std::uint16_t life() const;
+  /// Another life from now on.
+  std::uint16_t begin_life();
   security::ReplayMemory windows();
 
  private:

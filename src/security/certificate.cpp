@@ -139,6 +139,11 @@ bool Certificate::may_be_client() const {
 
 bool Certificate::is_authority() const { return X509_check_ca(certificate_.get()) == 1; }
 
+std::optional<std::int64_t> Certificate::path_length() const {
+  const long length = X509_get_pathlen(certificate_.get());
+  return length < 0 ? std::nullopt : std::optional<std::int64_t>(length);
+}
+
 bool Certificate::is_issued_by(const Certificate& issuer) const {
   const detail::ForgetErrors forget;
   return X509_NAME_cmp(X509_get_issuer_name(certificate_.get()), X509_get_subject_name(issuer.certificate_.get())) == 0 &&

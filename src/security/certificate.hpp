@@ -38,6 +38,8 @@ class Certificate {
   bool may_sign_and_encrypt() const;
   bool may_be_client() const;
   bool is_authority() const;
+  /// How many authorities may stand between it and a certificate; nothing: any number.
+  std::optional<std::int64_t> path_length() const;
   bool is_issued_by(const Certificate& issuer) const;
 
   bool operator==(const Certificate& other) const { return der_ == other.der_; }

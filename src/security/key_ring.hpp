@@ -77,6 +77,13 @@ class KeyRing {
   };
   /// The key to send with. Without a newer one the last goes on for two lifetimes (OPC 10000-14, 8.2); then there is none. The token never goes back, even if the clock does.
   std::optional<Current> current(std::int64_t now_ns);
+  /// The clock was so far ahead, and has come back, that nobody of the group has the keys that are used here.
+  bool was_ahead(std::int64_t now_ns) const { return schedule_.changes_until(now_ns) + 1 < changes_; }
+  /// Goes on with the keys of now, whose nonces may have been used: with another life only.
+  void come_back(std::int64_t now_ns) {
+    changes_ = schedule_.changes_until(now_ns);
+    used_ = 0;
+  }
   /// A key to take messages with: the current one, the one before or the one behind it; null for all others.
   GroupKey* find(std::uint32_t token, std::int64_t now_ns);
   /// Of a token that `find` has no key for: whether it is a later one than the current one, so that others have keys that are missing here. True before the first keys, too.

@@ -63,6 +63,14 @@ class SecureChannel {
   Octets seal(Octets clear, std::int64_t now_ns);
   Opened open(Octets message, std::int64_t now_ns);
 
+  /// Another life, after the clock was far ahead: what was signed with the keys of now before has other nonces.
+  void begin_anew(std::uint16_t life, std::int64_t now_ns) {
+    settings_.life = life;
+    keys_.come_back(now_ns);
+    token_ = 0;
+    number_ = 0;
+  }
+
   const ChannelSettings& settings() const { return settings_; }
   KeyRing& keys() { return keys_; }
   /// With which it has sealed last; 0: none yet.

@@ -2,11 +2,14 @@
 #include "node/key_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "node/config.hpp"
 #include "node/security_memory.hpp"
@@ -80,27 +83,75 @@ TEST_F(KeyFiles, FitTheirNodes) {
   EXPECT_TRUE(has(refusal_of_node(R"({"keys": "cell.keys", "mode": "none"})"), "sign-and-encrypt"));
 }
 
+constexpr sim::Duration hour = sim::Duration::from_ps(3'600'000'000'000'000);
+
+bool is_later(std::uint16_t life, std::uint16_t other) {
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(life - other)) > 0;
+}
+
+// Nobody takes what a life says that is before one that was heard: a node that has lost its memory begins behind all
+// its lives, also those that followed each other quickly.
+TEST_F(KeyFiles, ALostMemoryBeginsBehindTheLivesBefore) {
+  const std::string path = folder_ / "lost.memory";
+  std::string problem;
+  std::optional<std::uint16_t> before;
+  for (int i = 0; i < 5; ++i) {
+    fs::remove(path);
+    auto memory = SecurityMemory::open(path, hour, problem);
+    ASSERT_TRUE(memory) << problem;
+    if (before) {
+      EXPECT_TRUE(is_later(memory->life(), *before));
+    }
+    before = memory->life();
+  }
+}
+
+// Holes of a file that is mapped become a signal when the disk is full: there are none.
+TEST_F(KeyFiles, AMemoryHasAllItsBlocksAtTheStart) {
+  const std::string path = folder_ / "whole.memory";
+  std::string problem;
+  const auto memory = SecurityMemory::open(path, hour, problem);
+  ASSERT_TRUE(memory) << problem;
+  struct stat status = {};
+  ASSERT_EQ(::stat(path.c_str(), &status), 0);
+  EXPECT_GE(status.st_blocks * 512, status.st_size);
+}
+
+TEST_F(KeyFiles, WithoutRoomThereIsAMessage) {
+  const std::string path = folder_ / "full.memory";
+  rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little = {4096, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
+  std::string problem;
+  EXPECT_FALSE(SecurityMemory::open(path, hour, problem));
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_NE(problem.find("no room"), std::string::npos) << problem;
+  EXPECT_TRUE(SecurityMemory::open(path, hour, problem)) << "what was begun is no obstacle later: " << problem;
+}
+
 TEST_F(KeyFiles, MemoriesAreOfOneNodeAndLastLonger) {
   const std::string path = folder_ / "deep/er/plc.memory";
   std::string problem;
-  auto memory = SecurityMemory::open(path, problem);
+  auto memory = SecurityMemory::open(path, hour, problem);
   ASSERT_TRUE(memory) << problem;
   EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
   const std::uint16_t life = memory->life();
   EXPECT_TRUE(memory->windows().take({7, 1, 2}, {3, 100, 1}));
-  EXPECT_FALSE(SecurityMemory::open(path, problem)) << "two at a time would sign with the same numbers";
+  EXPECT_FALSE(SecurityMemory::open(path, hour, problem)) << "two at a time would sign with the same numbers";
   EXPECT_NE(problem.find("another node has it"), std::string::npos);
   memory.reset();
-  memory = SecurityMemory::open(path, problem);
+  memory = SecurityMemory::open(path, hour, problem);
   ASSERT_TRUE(memory) << problem;
-  EXPECT_EQ(memory->life(), static_cast<std::uint16_t>(life + 1));
+  EXPECT_TRUE(is_later(memory->life(), life));
   EXPECT_FALSE(memory->windows().take({7, 1, 2}, {3, 100, 1})) << "it has come before";
   EXPECT_TRUE(memory->windows().take({7, 1, 2}, {3, 101, 1}));
   memory.reset();
   ::chmod(path.c_str(), 0644);
-  EXPECT_FALSE(SecurityMemory::open(path, problem));
+  EXPECT_FALSE(SecurityMemory::open(path, hour, problem));
   write("other", "text");
-  EXPECT_FALSE(SecurityMemory::open(folder_ / "other", problem));
+  EXPECT_FALSE(SecurityMemory::open(folder_ / "other", hour, problem));
   EXPECT_NE(problem.find("something else"), std::string::npos);
 }
 

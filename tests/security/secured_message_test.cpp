@@ -221,6 +221,29 @@ TEST(SecuredMessages, AClockThatGoesBackUsesNoOldKey) {
   EXPECT_EQ(node.channel.token(), 6u);
 }
 
+// A clock that was set far ahead, and back again: with another life the node is heard at once, hears the others, and no
+// nonce is used twice.
+TEST(SecuredMessages, AClockThatWasFarAheadIsFollowedBack) {
+  std::vector<StoredWindow> windows(64);
+  std::vector<StoredWindow> own(64);
+  Node receiver(2, 1, windows);
+  Node node(1, 1, own);
+  std::set<std::string> nonces;
+  const auto say = [&](std::int64_t now) {
+    const auto octets = node.seal(1, now);
+    EXPECT_TRUE(nonces.insert(std::to_string(node.channel.token()) + to_hex(Octets(octets).subspan(15 + 6, 8))).second);
+    return octets;
+  };
+  EXPECT_EQ(receiver.open(say(5500), 5500), SecurityVerdict::good);
+  EXPECT_EQ(receiver.open(say(900'000), 5500), SecurityVerdict::token);
+  EXPECT_EQ(receiver.open(say(5600), 5600), SecurityVerdict::token) << "a token is not gone back behind by itself";
+  EXPECT_TRUE(node.channel.keys().was_ahead(5600));
+  node.channel.begin_anew(2, 5600);
+  EXPECT_EQ(receiver.open(say(5600), 5600), SecurityVerdict::good);
+  EXPECT_FALSE(node.channel.keys().was_ahead(5600));
+  EXPECT_EQ(node.open(receiver.seal(2, 5600), 5600), SecurityVerdict::good);
+}
+
 TEST(KeyRing, GoesOnForTwoLifetimesAndThenStops) {
   std::vector<Secret> keys(2, Secret(52));
   KeyRing ring(MessagePolicy::aes128_ctr, {0xFFFF'FFFF, 1000, 100}, std::make_unique<ListedKeys>(0xFFFF'FFFF, keys));

@@ -19,6 +19,7 @@
 #include "node/description.hpp"
 #include "node/key_service_node.hpp"
 #include "node/log.hpp"
+#include "node/notices.hpp"
 #include "node/real_node.hpp"
 #include "node/server/key_puller.hpp"
 #include "node/server/opcua_server.hpp"
@@ -45,7 +46,9 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   std::string warnings;
   node::KeyMailbox mailbox;
   const bool pulls = loaded->secured && loaded->secured->key_access;
-  const auto puller = pulls ? node::KeyPuller::make(*loaded->secured, folder_of(file), mailbox, problem) : nullptr;
+  node::Notices notices(stderr);
+  const auto puller =
+      pulls ? node::KeyPuller::make(*loaded->secured, folder_of(file), mailbox, notices, problem) : nullptr;
   const auto host = pulls && !puller ? nullptr : node::ApplicationHost::make(*loaded, problem, warnings, puller ? &mailbox : nullptr);
   if (!host) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
@@ -62,7 +65,7 @@ ExitStatus run_applications(const std::string& file, bool is_check) {
   const std::string json = node::to_json(report);
   std::printf("{\"event\": \"end\", %s\n", json.substr(1).c_str());
   std::fflush(stdout);
-  std::fputs(node::to_text(report).c_str(), stderr);
+  notices.finish(node::to_text(report));
   if (!loaded->config.statistics) return ExitStatus::pass;
   if (const std::string unwritten = node::write_statistics(*loaded->config.statistics, json + "\n"); !unwritten.empty()) {
     std::fprintf(stderr, "takt: cannot write %s: %s\n", loaded->config.statistics->c_str(), unwritten.c_str());
@@ -110,7 +113,9 @@ ExitStatus run_key_service(const std::string& file, bool is_check) {
   if (is_check) return ExitStatus::pass;
   std::string problem;
   node::HandOver hand_over;
-  const auto server = node::OpcUaServer::make(*loaded, std::move(*users), folder_of(file), hand_over, results::version, problem);
+  node::Notices notices(stderr);
+  const auto server = node::OpcUaServer::make(*loaded, std::move(*users), folder_of(file), hand_over, notices,
+                                              results::version, problem);
   if (!server) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
@@ -118,7 +123,7 @@ ExitStatus run_key_service(const std::string& file, bool is_check) {
   const InterruptGuard interrupt;  // before the start is told, which somebody may answer with a signal
   std::printf("{\"event\": \"start\", \"node\": %s}\n", json::quote(loaded->config.node).c_str());
   std::fflush(stdout);
-  std::fprintf(stderr, "%s", server->text().c_str());
+  notices.page(server->text());
   server->start();
   constexpr std::int64_t look_every_ms = 100;
   std::int64_t left_ms = loaded->config.duration ? loaded->config.duration->ps() / 1'000'000'000 : 0;
@@ -151,13 +156,16 @@ ExitStatus run_node(const std::string& file, bool is_check) {
   }
   node::HandOver hand_over;
   const std::string folder = folder_of(file);
-  const auto server = has_server ? node::OpcUaServer::make(*loaded, std::move(*users), folder, hand_over, results::version, problem) : nullptr;
+  node::Notices notices(stderr);
+  const auto server = has_server ? node::OpcUaServer::make(*loaded, std::move(*users), folder, hand_over, notices,
+                                                           results::version, problem)
+                                 : nullptr;
   if (has_server && !server) {
     std::fprintf(stderr, "takt: cannot run this node here: %s\n", problem.c_str());
     return ExitStatus::internal_error;
   }
   node::KeyMailbox mailbox;
-  const auto puller = loaded->key_access ? node::KeyPuller::make(*loaded, folder, mailbox, problem) : nullptr;
+  const auto puller = loaded->key_access ? node::KeyPuller::make(*loaded, folder, mailbox, notices, problem) : nullptr;
   const bool lacks_puller = loaded->key_access && !puller;
   const auto live = lacks_puller ? nullptr : node::RealNode::make(*loaded, log, applications, problem, warnings, server ? &hand_over : nullptr, puller ? &mailbox : nullptr);
   if (!live) {
@@ -167,14 +175,14 @@ ExitStatus run_node(const std::string& file, bool is_check) {
   print_warnings(warnings);
   const InterruptGuard interrupt;
   if (server) {
-    std::fprintf(stderr, "%s", server->text().c_str());
+    notices.page(server->text());
     server->start();
   }
   if (puller) puller->start();
   live->run([](const void* guard) { return static_cast<const InterruptGuard*>(guard)->requested(); }, &interrupt);
   if (puller) puller->stop();
   if (server) server->stop();
-  std::fputs(node::status_text(live->status()).c_str(), stderr);
+  notices.finish(node::status_text(live->status()));
   return ExitStatus::pass;
 }
 

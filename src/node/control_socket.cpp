@@ -133,6 +133,7 @@ std::optional<std::string> ControlSocket::next() {
     asking_ = std::move(clients_[i]);
     clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
     if (size > 0 && static_cast<std::size_t>(size) <= buffer.size()) return std::string(buffer.data(), static_cast<std::size_t>(size));
+    if (size > 0) answer(R"({"error": "a request of more than 256 octets"})");
   }
   return std::nullopt;
 }

@@ -29,6 +29,7 @@ void HandOver::flush() {
 }
 
 bool HandOver::call(const Call& call) {
+  if (call.method != program::Method::Halt && calls_.size() >= places_of_other_calls) return false;
   if (!calls_.put(call)) return false;
   calls_wake_.signal();
   return true;

@@ -4,11 +4,13 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
+#include "node/server_state.hpp"
 #include "node/socket.hpp"
-#include "wire/program_news.hpp"
 #include "program/status.hpp"
+#include "wire/program_news.hpp"
 
 namespace takt::node {
 
@@ -25,6 +27,10 @@ class Queue {
     values_[at % Size] = value;
     written_.store(at + 1, std::memory_order_release);
     return true;
+  }
+  /// How many wait at most; of the writer's side.
+  std::size_t size() const {
+    return written_.load(std::memory_order_relaxed) - read_.load(std::memory_order_acquire);
   }
   std::optional<T> next() {
     const std::size_t at = read_.load(std::memory_order_relaxed);
@@ -53,6 +59,29 @@ class Wake {
   FileDescriptor fd_;
 };
 
+/// Holds one thing for who comes: the newest.
+template <class T>
+class Newest {
+ public:
+  Newest() = default;
+  Newest(const Newest&) = delete;
+  Newest& operator=(const Newest&) = delete;
+  ~Newest() { take(); }
+
+  /// What was there and has not been taken is dropped.
+  void give(std::unique_ptr<T> thing) {
+    std::unique_ptr<T>(waiting_.exchange(thing.release(), std::memory_order_acq_rel));
+  }
+  /// Null: nothing new.
+  std::unique_ptr<T> take() {
+    if (waiting_.load(std::memory_order_relaxed) == nullptr) return nullptr;
+    return std::unique_ptr<T>(waiting_.exchange(nullptr, std::memory_order_acq_rel));
+  }
+
+ private:
+  std::atomic<T*> waiting_{nullptr};
+};
+
 class HandOver {
  public:
   struct Call {
@@ -76,10 +105,13 @@ class HandOver {
   /// They are told when the cycle has time: `flush`.
   void report(const Report& report);
   void flush();
+  /// What the server has said of itself last; null: nothing new.
+  std::unique_ptr<ServerState> state() { return states_.take(); }
 
   // The server's side.
-  /// False: the cycle has not taken those before it.
+  /// False: the cycle has not taken those before it. The last places are those of Halt.
   bool call(const Call& call);
+  void tell(const ServerState& state) { states_.give(std::make_unique<ServerState>(state)); }
   int reports_descriptor() const { return reports_wake_.file_descriptor(); }
   void clear_reports_wake() const { reports_wake_.clear(); }
   std::optional<Report> next_report() { return reports_.next(); }
@@ -87,8 +119,10 @@ class HandOver {
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
 
  private:
+  static constexpr std::size_t places_of_other_calls = 48;
   Queue<Call, 64> calls_;
   Queue<Report, 4096> reports_;
+  Newest<ServerState> states_;
   Wake calls_wake_;
   Wake reports_wake_;
   bool has_reports_ = false;  ///< since the last flush; the cycle's own

@@ -15,27 +15,6 @@ struct KeyDelivery {
   std::unique_ptr<security::KeySource> source;
 };
 
-/// Holds one thing for who comes: the newest.
-template <class T>
-class Newest {
- public:
-  Newest() = default;
-  Newest(const Newest&) = delete;
-  Newest& operator=(const Newest&) = delete;
-  ~Newest() { take(); }
-
-  /// What was there and has not been taken is dropped.
-  void give(std::unique_ptr<T> thing) { std::unique_ptr<T>(waiting_.exchange(thing.release(), std::memory_order_acq_rel)); }
-  /// Null: nothing new.
-  std::unique_ptr<T> take() {
-    if (waiting_.load(std::memory_order_relaxed) == nullptr) return nullptr;
-    return std::unique_ptr<T>(waiting_.exchange(nullptr, std::memory_order_acq_rel));
-  }
-
- private:
-  std::atomic<T*> waiting_{nullptr};
-};
-
 class KeyMailbox {
  public:
   bool is_open() const { return wake_.is_open(); }

@@ -27,8 +27,6 @@ bool takes_some(int file, int milliseconds) {
   return ::poll(&waiting, 1, milliseconds) == 1;
 }
 
-std::string note_of(std::uint64_t lines) { return fmt::format("{{\"event\": \"left out\", \"lines\": {}}}\n", lines); }
-
 }  // namespace
 
 Log::Log(std::FILE* file, const LogLimits& limits) : file_(::fileno(file)), limits_(limits), credit_(limits.octets_at_once), credited_ns_(monotonic_ns()) {
@@ -49,6 +47,12 @@ bool Log::admit(std::size_t octets, std::int64_t now_ns) {
   return true;
 }
 
+std::string Log::note() const {
+  const std::uint64_t lines = left_out_ - told_;
+  return limits_.left_out == Notes::json ? fmt::format("{{\"event\": \"left out\", \"lines\": {}}}\n", lines)
+                                         : fmt::format("takt: {} lines were left out\n", lines);
+}
+
 void Log::write(std::string_view line) {
   if (is_closed_) return;
   const std::int64_t now = monotonic_ns();
@@ -60,7 +64,7 @@ void Log::write(std::string_view line) {
 
 /// Once half a second of credit is there again: not a note for each line.
 void Log::tell_what_was_left_out(std::int64_t now_ns) {
-  const std::string note = note_of(left_out_ - told_);
+  const std::string note = this->note();
   const std::size_t wanted = std::min(limits_.octets_per_second, limits_.octets_at_once) / 2;
   if (!admit(0, now_ns) || credit_ < std::max(wanted, note.size()) || !admit(note.size(), now_ns)) return;
   waiting_ += note;
@@ -102,11 +106,11 @@ void Log::wait_until_taken(std::int64_t until_ns) {
   }
 }
 
-void Log::finish(std::string_view line) {
-  const std::int64_t until = monotonic_ns() + second_ns;
+void Log::finish(std::string_view line, std::int64_t most_ns) {
+  const std::int64_t until = monotonic_ns() + most_ns;
   wait_until_taken(until);
   if (is_closed_ || !is_idle()) return;  // a line behind half of another would be none
-  if (left_out_ != told_) waiting_ += note_of(left_out_ - told_);
+  if (left_out_ != told_) waiting_ += note();
   told_ = left_out_;
   waiting_ += line;
   wait_until_taken(until);

@@ -8,11 +8,15 @@
 
 namespace takt::node {
 
+/// How a line says that others were left out.
+enum class Notes : std::uint8_t { json, text };
+
 /// The defaults let through what nodes say that are not under attack, and keep what others can make them say below what a journal keeps.
 struct LogLimits {
   std::size_t octets_per_second = std::size_t{64} << 10;
   std::size_t octets_at_once = std::size_t{1} << 20;    ///< after a silence
   std::size_t octets_waiting = std::size_t{256} << 10;  ///< for a reader that is slow
+  Notes left_out = Notes::json;
 };
 
 class Log {
@@ -26,8 +30,8 @@ class Log {
   void write(std::string_view line);
   /// Hands on what waits, as far as nobody has to be waited for.
   void flush();
-  /// The last line, whatever the rate: waits a second at most until it has been taken.
-  void finish(std::string_view line);
+  /// The last line, whatever the rate: waits at most so long until it has been taken.
+  void finish(std::string_view line, std::int64_t most_ns = 1'000'000'000);
 
   std::uint64_t lines_left_out() const { return left_out_; }
   /// Nothing waits to be handed on.
@@ -37,6 +41,7 @@ class Log {
   /// Room by the rate and in memory; takes it.
   bool admit(std::size_t octets, std::int64_t now_ns);
   void tell_what_was_left_out(std::int64_t now_ns);
+  std::string note() const;
   /// Whether octets were taken.
   bool hand_on();
   void wait_until_taken(std::int64_t until_ns);

@@ -91,6 +91,19 @@ std::string lines_of_key_service(const json::Node& service) {
   return out + "\n";
 }
 
+/// "  server: 3 connections, 2 sessions, 1 subscription, 12 kB held; 40 refused, 3 certificates among them".
+std::string lines_of_server(const json::Node& server) {
+  std::string out = fmt::format(
+      "  server: {}{} connections, {} sessions, {} subscriptions, {} octets held; {} refused, {} certificates among "
+      "them\n",
+      is_true(server.find("running")) ? "" : "begins anew; ", scalar(server.find("connections")),
+      scalar(server.find("sessions")), scalar(server.find("subscriptions")), scalar(server.find("octets")),
+      scalar(server.find("refused")), scalar(server.find("rejected")));
+  if (const std::string restarts = scalar(server.find("restarts")); restarts != "0")
+    out += fmt::format("    began anew {} times; the last time: {}\n", restarts, scalar(server.find("failure")));
+  return out;
+}
+
 /// Who is refused: "  refused of 10.0.0.3:4840, publisher 3: 12 signature, 1 token".
 std::string lines_of_sources(const json::Node& root) {
   std::string out;
@@ -103,8 +116,21 @@ std::string lines_of_sources(const json::Node& root) {
     for (const json::Node& each : refused->items) out += fmt::format("{} {} {}", &each == &refused->items.front() ? "" : ",", scalar(each.find("messages")), scalar(each.find("verdict")));
     out += "\n";
   }
+  if (const json::Node* const interface = root.find("interface");
+      interface != nullptr && !is_true(interface->find("there")))
+    out += fmt::format("  interface {} is not there\n", scalar(interface->find("name")));
+  const json::Node* const twins = root.find("twins");
+  for (std::size_t t = 0; twins != nullptr && t < twins->items.size(); ++t) {
+    const json::Node& addresses = *twins->items[t].find("addresses");
+    out += fmt::format("  two nodes of one name: publisher {} sends from {} and from {}\n",
+                       scalar(twins->items[t].find("publisher_id")), scalar(&addresses.items[0]),
+                       scalar(&addresses.items[1]));
+  }
+  if (const json::Node* const server = root.find("server"); server != nullptr) out += lines_of_server(*server);
   if (const json::Node* const security = root.find("security"); security != nullptr) {
     out += fmt::format("  security: group {}, key {}, life {}, {} messages without a key\n", scalar(security->find("group")), scalar(security->find("token")), scalar(security->find("life")), scalar(security->find("unsealed")));
+    if (const std::string returns = scalar(security->find("clock_returns")); returns != "0" && returns != "-")
+      out += fmt::format("    the clock was far ahead and came back {} times\n", returns);
     if (const json::Node* const service = security->find("key_service"); service != nullptr) out += lines_of_key_service(*service);
   }
   if (const std::string left_out = scalar(root.find("log_lines_left_out")); left_out != "-" && left_out != "0") out += fmt::format("  {} lines of the log left out\n", left_out);

@@ -6,6 +6,7 @@
 
 #include "node/config.hpp"
 #include "node/node_security.hpp"
+#include "node/server_state.hpp"
 #include "node/sources.hpp"
 #include "node/statistics.hpp"
 #include "wire/program_node.hpp"
@@ -21,6 +22,14 @@ struct ProgramStatus {
   sim::LocalTime now;
   std::uint64_t send_failures = 0;      ///< of the node's socket
 };
+/// The interface that the transport names.
+struct InterfaceStatus {
+  std::string name;
+  bool is_there = true;
+  std::uint64_t bound_again = 0;
+};
+const json::Record& describe(json::Type<InterfaceStatus>);
+
 struct NodeStatus {
   std::string node;
   std::vector<ProgramStatus> programs;  ///< at least one
@@ -28,6 +37,9 @@ struct NodeStatus {
   std::vector<HeardSource> sources = {};
   std::uint64_t log_lines_left_out = 0;
   std::optional<SecurityStatus> security = {};
+  std::optional<ServerState> server = {};
+  std::vector<SourceTable::Twins> twins = {};
+  std::optional<InterfaceStatus> interface = {};
 };
 const json::Record& describe(json::Type<ProgramStatus>);
 const json::Record& describe(json::Type<NodeStatus>);

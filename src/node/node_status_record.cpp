@@ -187,6 +187,31 @@ std::vector<Peer> peers_of(const ProgramStatus& status) {
 
 bool is_secured(const NodeStatus& status) { return status.security.has_value(); }
 const SecurityStatus& security_of(const NodeStatus& status) { return *status.security; }
+struct TwinStatus {
+  std::uint64_t publisher_id = 0;
+  std::vector<std::string> addresses;
+};
+
+const json::Record& describe(json::Type<TwinStatus>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&TwinStatus::publisher_id>("publisher_id", "What both say."),
+      json::output<&TwinStatus::addresses>("addresses", "Where their messages come from."),
+  };
+  static constexpr json::Record record{"twins", "Two nodes that send under one name.", outputs};
+  return record;
+}
+
+std::vector<TwinStatus> twins_of(const NodeStatus& status) {
+  std::vector<TwinStatus> all;
+  for (const SourceTable::Twins& each : status.twins)
+    all.push_back({each.publisher_id, {to_text(each.one), to_text(each.other)}});
+  return all;
+}
+
+bool has_interface(const NodeStatus& status) { return status.interface.has_value(); }
+const InterfaceStatus& interface_of(const NodeStatus& status) { return *status.interface; }
+bool is_server(const NodeStatus& status) { return status.server.has_value(); }
+const ServerState& server_of(const NodeStatus& status) { return *status.server; }
 
 bool is_alone(const NodeStatus& status) { return status.programs.size() == 1; }
 bool has_several(const NodeStatus& status) { return !is_alone(status); }
@@ -217,15 +242,36 @@ const json::Record& describe(json::Type<ProgramStatus>) {
   return record;
 }
 
+const json::Record& describe(json::Type<InterfaceStatus>) {
+  static constexpr json::Output outputs[] = {
+      json::output<&InterfaceStatus::name>("name", "Its name."),
+      json::output<&InterfaceStatus::is_there>("there", "False: it is gone, or cannot be bound to."),
+      json::output<&InterfaceStatus::bound_again>("bound_again",
+                                                  "How often it was made anew, and the node has bound to it again."),
+  };
+  static constexpr json::Record record{"interface_status", "The interface of the node's transport.", outputs};
+  return record;
+}
+
 const json::Record& describe(json::Type<NodeStatus>) {
   static constexpr json::Output outputs[] = {
       json::output<&NodeStatus::time_ns>("time_ns", "When this was said, on the node's clock.", {.unit = "ns"}),
       json::output<&NodeStatus::node>("node", "Its name."),
       json::only_if<&is_alone>(json::spread<&only_program>(), "of a node with one Program"),
-      json::only_if<&has_several>(json::output<&NodeStatus::programs>("programs", "Each of them."), "of a node with several Programs"),
-      json::output<&NodeStatus::sources>("sources", "Whom it hears, and what is refused of them; 64 senders at most, and the others together."),
-      json::only_if<&is_secured>(json::output<&security_of>("security", "Its secured messages."), "of a node with secured messages"),
-      json::output<&NodeStatus::log_lines_left_out>("log_lines_left_out", "Lines of its log that were left out: too many at once, or nobody reads them."),
+      json::only_if<&has_several>(json::output<&NodeStatus::programs>("programs", "Each of them."),
+                                  "of a node with several Programs"),
+      json::output<&NodeStatus::sources>(
+          "sources", "Whom it hears, and what is refused of them; 64 senders at most, and the others together."),
+      json::only_if<&has_interface>(json::output<&interface_of>("interface", "The one that it is bound to."),
+                                    "of a node whose transport names one"),
+      json::output<&twins_of>("twins",
+                              "PublisherIds that messages come under from two addresses, within the last ten seconds."),
+      json::only_if<&is_secured>(json::output<&security_of>("security", "Its secured messages."),
+                                 "of a node with secured messages"),
+      json::only_if<&is_server>(json::output<&server_of>("server", "Its OPC UA server."),
+                                "of a node with a server that has begun"),
+      json::output<&NodeStatus::log_lines_left_out>(
+          "log_lines_left_out", "Lines of its log that were left out: too many at once, or nobody reads them."),
   };
   static constexpr json::Record record{"node_status", "What a node says of itself.", outputs};
   return record;

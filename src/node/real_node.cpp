@@ -18,6 +18,8 @@
 namespace takt::node {
 namespace {
 
+constexpr Duration look_every = Duration::from_ps(1'000'000'000'000);
+constexpr std::size_t most_twins_told = 64;
 constexpr int most_messages_at_once = 256;  // a flood does not keep the alarms waiting
 
 /// Another number at each start: the time of day in units of 67 ms, which no restart takes less than. Never 0.
@@ -32,7 +34,7 @@ std::uint32_t incarnation_now() {
 std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, std::string& problem,
                                          std::string& warnings, HandOver* hand_over, KeyMailbox* keys) {
   const Config& config = loaded.config;
-  std::unique_ptr<Socket> socket = std::visit([&problem](const auto& transport) { return open_socket(transport, problem); }, config.transport);
+  std::unique_ptr<FollowingSocket> socket = FollowingSocket::open(config.transport, problem);
   if (!socket) return nullptr;
   std::string refused_launch;
   if (config.launch_lead) refused_launch = socket->enable_launch_times(config.clock);
@@ -62,7 +64,7 @@ std::unique_ptr<RealNode> RealNode::make(const LoadedConfig& loaded, Log& log, c
   return node;
 }
 
-RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, Log& log)
+RealNode::RealNode(const LoadedConfig& loaded, std::unique_ptr<FollowingSocket> socket, Log& log)
     : config_(loaded.config),
       script_(loaded.script),
       outermost_(outermost(loaded.programs)),
@@ -101,6 +103,7 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
     if (waiting[2].revents != 0) take_calls();
     const bool is_asked = std::any_of(waiting.begin() + 3, waiting.end(), [](const pollfd& each) { return each.revents != 0; });
     if (is_asked) take_requests();
+    if (clock_.now() - looked_around_ >= look_every) look_around();
     if (!out_.is_idle()) out_.flush();
     if (hand_over_ != nullptr) hand_over_->flush();
   }
@@ -110,6 +113,10 @@ void RealNode::run(bool (*stop_requested)(const void* context), const void* cont
 NodeStatus RealNode::status_now(std::optional<std::size_t> only) const {
   const sim::LocalTime time = clock_.now();
   NodeStatus status{config_.node, {}, clock_.nanoseconds_at(time), sources_.all(), out_.lines_left_out(), security_ ? std::optional(security_->status()) : std::nullopt};
+  status.server = server_;
+  status.twins = sources_.twins(status.time_ns);
+  if (!socket_->interface().empty())
+    status.interface = InterfaceStatus{socket_->interface(), socket_->is_there(), socket_->bound_again()};
   for (std::size_t i = 0; i < programs_.size(); ++i)
     if (!only || *only == i) status.programs.push_back(programs_[i]->status(time, socket_->send_failures()));
   return status;
@@ -167,7 +174,22 @@ void RealNode::take_calls() {
   }
 }
 
+void RealNode::look_around() {
+  looked_around_ = clock_.now();
+  const std::int64_t now_ns = clock_.nanoseconds_at(looked_around_);
+  if (const std::string change = socket_->look(); !change.empty()) log_.noticed(now_ns, change);
+  for (const SourceTable::Twins& each : sources_.twins(now_ns)) {
+    if (told_twins_.size() >= most_twins_told ||
+        std::find(told_twins_.begin(), told_twins_.end(), each) != told_twins_.end())
+      continue;
+    told_twins_.push_back(each);
+    log_.twins(now_ns, each);
+  }
+}
+
 void RealNode::take_requests() {
+  if (hand_over_ != nullptr)
+    if (const auto said = hand_over_->state()) server_ = *said;
   for (std::size_t i = 0; i < ControlSocket::most_clients; ++i) {
     const auto request = control_->next();
     if (!request) return;

@@ -10,6 +10,7 @@
 #include "node/clock.hpp"
 #include "node/config.hpp"
 #include "node/control_socket.hpp"
+#include "node/following_socket.hpp"
 #include "node/hosted_program.hpp"
 #include "node/log.hpp"
 #include "node/node_security.hpp"
@@ -43,7 +44,7 @@ class RealNode {
   std::string status() const { return to_json(status_now()); }
 
  private:
-  RealNode(const LoadedConfig& loaded, std::unique_ptr<Socket> socket, Log& log);
+  RealNode(const LoadedConfig& loaded, std::unique_ptr<FollowingSocket> socket, Log& log);
   void take_calls();
   void host(const LoadedConfig& loaded, Log& log, const std::vector<Application*>& applications, Duration lead);
 
@@ -55,6 +56,8 @@ class RealNode {
   void take_received();
   wire::Verdict take(uadp::Octets message);
   void take_requests();
+  /// Once a second: what no message brings.
+  void look_around();
   std::string answer_to(std::string_view request);
   std::string answer_to_membership(Membership what, std::string_view of);
   std::string answer_of(const HostedProgram& hosted, std::string_view method, program::StatusCode status) const;
@@ -64,14 +67,17 @@ class RealNode {
   Config config_;
   std::vector<LoadedCall> script_;          ///< in the order of time
   std::optional<std::size_t> outermost_;    ///< what a request is for that names no Program
-  std::unique_ptr<Socket> socket_;
+  std::unique_ptr<FollowingSocket> socket_;
   std::unique_ptr<ControlSocket> control_;  ///< null: none is wanted
   HandOver* hand_over_ = nullptr;           ///< null: no server
   Clock clock_;
   AbsoluteTimer timer_;
   Log& out_;
   TransitionLog log_;
+  std::optional<ServerState> server_;  ///< what it said of itself last
   SourceTable sources_;
+  std::vector<SourceTable::Twins> told_twins_;
+  sim::LocalTime looked_around_;
   std::unique_ptr<NodeSecurity> security_;
   std::uint32_t incarnation_;
   std::vector<std::unique_ptr<HostedProgram>> programs_;

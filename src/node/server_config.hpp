@@ -41,6 +41,12 @@ struct ServerLimits {
   std::optional<sim::Duration> least_token;
   std::optional<sim::Duration> most_token;
   std::optional<sim::Duration> least_publishing;
+  std::optional<sim::Duration> session_grace;
+  std::optional<sim::Duration> most_subscription;
+  std::optional<sim::Duration> orphan_subscription;
+  std::optional<std::uint32_t> session_octets;
+  std::optional<std::uint32_t> user_octets;
+  std::optional<std::uint32_t> all_octets;
   bool operator==(const ServerLimits&) const = default;
 };
 

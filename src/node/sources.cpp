@@ -61,17 +61,30 @@ std::uint64_t HeardSource::refused() const {
 HeardSource& SourceTable::find(const SenderAddress& address, std::optional<std::uint64_t> publisher_id, std::int64_t now_ns) {
   for (HeardSource& each : sources_)
     if (each.publisher_id == publisher_id && each.address == address) return each;
-  if (sources_.size() < most_sources) return sources_.emplace_back(HeardSource{address, publisher_id, {}, now_ns});
+  if (sources_.size() < most_sources) return sources_.emplace_back(HeardSource{address, publisher_id, {}, now_ns, 0});
   const auto rank = [](const HeardSource& source) { return std::pair(source.count(wire::Verdict::taken) != 0, source.last_ns); };
   HeardSource& oldest = *std::min_element(sources_.begin(), sources_.end(), [&](const HeardSource& a, const HeardSource& b) { return rank(a) < rank(b); });
   if (oldest.count(wire::Verdict::taken) != 0 || now_ns - oldest.last_ns < forgotten_after_ns) return others_;
-  return oldest = {address, publisher_id, {}, now_ns};
+  return oldest = {address, publisher_id, {}, now_ns, 0};
 }
 
 bool SourceTable::count(const Arrival& arrival, wire::Verdict verdict, std::int64_t now_ns) {
   HeardSource& source = find(arrival.from, publisher_id_of(arrival.message), now_ns);
   source.last_ns = now_ns;
+  if (!wire::is_refusal(verdict) || verdict == wire::Verdict::replayed) source.sound_ns = now_ns;
   return source.counts[wire::index_of(verdict)]++ == 0 && wire::is_refusal(verdict);
+}
+
+std::vector<SourceTable::Twins> SourceTable::twins(std::int64_t now_ns) const {
+  std::vector<Twins> all;
+  const auto is_there = [&](const HeardSource& each) {
+    return each.publisher_id && each.sound_ns != 0 && now_ns - each.sound_ns < forgotten_after_ns;
+  };
+  for (auto one = sources_.begin(); one != sources_.end(); ++one)
+    for (auto other = one + 1; is_there(*one) && other != sources_.end(); ++other)
+      if (is_there(*other) && one->publisher_id == other->publisher_id)
+        all.push_back({*one->publisher_id, one->address, other->address});
+  return all;
 }
 
 std::vector<HeardSource> SourceTable::all() const {

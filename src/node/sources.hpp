@@ -18,6 +18,7 @@ struct HeardSource {
   std::optional<std::uint64_t> publisher_id;  ///< a number; nothing: none, or a text
   std::array<std::uint64_t, wire::verdict_count> counts{};
   std::int64_t last_ns = 0;                   ///< on the node's clock
+  std::int64_t sound_ns = 0;  ///< when a message of the group came last that was not refused; 0: none did
 
   std::uint64_t count(wire::Verdict verdict) const { return counts[wire::index_of(verdict)]; }
   std::uint64_t refused() const;
@@ -32,6 +33,16 @@ class SourceTable {
   SourceTable() { sources_.reserve(most_sources); }
   /// True if a source is refused so for the first time; that is worth a line.
   bool count(const Arrival& arrival, wire::Verdict verdict, std::int64_t now_ns);
+
+  /// A PublisherId that messages of the group come under from two addresses, both within ten seconds: two nodes of one
+  /// name.
+  struct Twins {
+    std::uint64_t publisher_id = 0;
+    SenderAddress one;
+    SenderAddress other;
+    bool operator==(const Twins&) const = default;
+  };
+  std::vector<Twins> twins(std::int64_t now_ns) const;
 
   /// Those that have a place of their own, and the others, without an address, if there were some.
   std::vector<HeardSource> all() const;

@@ -73,6 +73,16 @@ void TransitionLog::refused(std::int64_t time, std::string_view address, std::op
                           publisher_id ? std::to_string(*publisher_id) : "null", verdict));
 }
 
+void TransitionLog::noticed(std::int64_t time, std::string_view what) {
+  log_->write(fmt::format("{{\"time_ns\": {}, \"event\": \"notice\", \"text\": {}}}\n", time, json::quote(what)));
+}
+
+void TransitionLog::twins(std::int64_t time, const SourceTable::Twins& twins) {
+  log_->write(fmt::format(
+      "{{\"time_ns\": {}, \"event\": \"two nodes of one name\", \"publisher_id\": {}, \"addresses\": [{}, {}]}}\n",
+      time, twins.publisher_id, json::quote(to_text(twins.one)), json::quote(to_text(twins.other))));
+}
+
 void TransitionLog::ended(const NodeStatus& status) { log_->finish("{\"event\": \"end\", " + to_json(status).substr(1) + "\n"); }
 
 }  // namespace takt::node

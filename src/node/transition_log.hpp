@@ -32,6 +32,11 @@ class TransitionLog {
   /// A sender is refused for this reason for the first time.
   void refused(std::int64_t time, std::string_view address, std::optional<std::uint64_t> publisher_id, std::string_view verdict);
 
+  /// Something of the machine has changed.
+  void noticed(std::int64_t time, std::string_view what);
+  /// Two nodes send under one name.
+  void twins(std::int64_t time, const SourceTable::Twins& twins);
+
   void ended(const NodeStatus& status);
 
  private:

@@ -117,6 +117,24 @@ class Isolation(real_node_test.Namespaces, Attack):
         self.as_stranger(say % (["10.78.0.1", "10.77.0.1"],), "plc")  # from the machine itself
         self.wait(self.folder / "plc.sock", "heard", lambda status: self.refusals(status) == {"address": 4, "other_version": 3})
 
+    def test_an_interface_that_is_made_anew_is_bound_again(self):
+        plc = f"{self.tag}plc"
+
+        def make():
+            self.ip("-n", plc, "link", "add", "usb0", "type", "dummy")
+            self.ip("-n", plc, "link", "set", "usb0", "up")
+
+        make()
+        self.start_plc({"kind": "ethernet", "interface": "usb0"})
+        path = self.folder / "plc.sock"
+        self.ip("-n", plc, "link", "del", "usb0")
+        self.wait(path, "told of", lambda status: not status["interface"]["there"])
+        make()
+        self.wait(path, "bound again", lambda status: status["interface"] == {"name": "usb0", "there": True, "bound_again": 1})
+        failures = self.ask(path)["statistics"]["send_failures"]
+        time.sleep(0.2)
+        self.assertEqual(self.ask(path)["statistics"]["send_failures"], failures)  # it sends again
+
     def test_groups_of_other_processes_are_not_heard(self):
         self.start_plc({"kind": "udp", "destinations": ["224.0.2.14"]} | {"interface": "eth0"})
         self.ip("-n", f"{self.tag}plc", "route", "add", "default", "dev", "eth0")

@@ -95,6 +95,26 @@ TEST(Sources, AreBounded) {
   EXPECT_FALSE(table.count(from(99, 99), wire::Verdict::vlan, 20'000'000'001)) << "told once";
 }
 
+// Two nodes of one name: both addresses are told while both are there; one that has moved is no second one.
+TEST(Sources, TwoNodesOfOneNameAreSeen) {
+  SourceTable table;
+  const std::vector<std::byte> word = {std::byte{0xb1}, std::byte{0x01}, std::byte{0x03}, std::byte{0}};
+  const auto from = [&](std::uint8_t host) {
+    return Arrival{wire::Verdict::taken, word, {SenderAddress::Kind::udp, {10, 0, 0, host, 18, 232}}};
+  };
+  constexpr std::int64_t second = 1'000'000'000;
+  table.count(from(7), wire::Verdict::taken, second);
+  table.count(from(8), wire::Verdict::other_version, second);
+  EXPECT_TRUE(table.twins(second).empty()) << "one that is refused is none";
+  table.count(from(8), wire::Verdict::stale, 2 * second);
+  const auto twins = table.twins(3 * second);
+  ASSERT_EQ(twins.size(), 1u);
+  EXPECT_EQ(twins[0].publisher_id, 3u);
+  EXPECT_EQ(to_text(twins[0].one), "10.0.0.7:4840");
+  EXPECT_EQ(to_text(twins[0].other), "10.0.0.8:4840");
+  EXPECT_TRUE(table.twins(11 * second).empty());
+}
+
 TEST(Sockets, SayWhatIsInTheWayOfLaunchTimes) {
   const auto ports = testing::Reservation::ports();
   const auto socket = open(ports.number(), ports.number());

@@ -30,6 +30,28 @@ TEST(KeyService, GivesKeysOverAnEncryptedChannel) {
   EXPECT_EQ(bench.server.services().sessions(), 0u) << "it has closed what it has opened";
 }
 
+// A certificate that is taken off the list ends its channel and its session, in the middle of whatever they do.
+TEST(KeyService, WhoIsTrustedNoMoreGoes) {
+  KeyBench bench;
+  const auto client = bench.client(call_of({Text("cell"), 0, 2}));
+  const ConnectionId id = bench.server.connected("192.0.2.9:1000", at(0));
+  for (int i = 0; i < 20 && bench.server.services().sessions() == 0; ++i) {
+    bench.server.received(id, client->output(), at(0));
+    client->sent(client->output().size());
+    const Octets output = bench.server.output(id);
+    const std::vector<std::byte> octets(output.begin(), output.end());
+    bench.server.sent(id, octets.size(), at(0));
+    client->received(octets, at(0));
+  }
+  ASSERT_EQ(bench.server.services().sessions(), 1u);
+  bench.server.check_trust(at(1));
+  EXPECT_FALSE(bench.server.is_closing(id));
+  bench.server.trust({});
+  bench.server.check_trust(at(2));
+  EXPECT_TRUE(bench.server.is_closing(id));
+  EXPECT_EQ(bench.server.services().sessions(), 0u);
+}
+
 TEST(KeyService, OctetsMayComeOneByOne) {
   KeyBench bench;
   bench.piece = 1;

@@ -33,11 +33,11 @@ class RecordingHost final : public ProgramHost {
 
 class SilentLog final : public ServerLog {
  public:
-  void refused(std::string_view, std::string_view what) override {
+  void refused(std::string_view, std::string_view what, std::string_view detail) override {
     ++refusals;
-    last = what;
+    last = std::string(what) + ": " + std::string(detail);
   }
-  void rejected(const security::Certificate&) override { ++rejections; }
+  void rejected(std::string_view, const security::Certificate&) override { ++rejections; }
   std::size_t refusals = 0;
   std::size_t rejections = 0;
   std::string last;
@@ -135,22 +135,32 @@ class PlainClientOf {
   }
 
   /// A MSG with a body that begins with its type.
-  void send_body(Octets body, std::int64_t now_ms = 0) {
+  void send_body(Octets body, std::int64_t now_ms = 0) { send(chunk_of(body), now_ms); }
+  std::vector<std::byte> chunk_of(Octets body) {
     Encoder encoder;
     encode_message_header(encoder, MessageType::Message);
     for (const std::uint32_t each : {channel_, std::uint32_t{1}, ++sequence_, ++request_}) encoder.put(each);
     encoder.put_octets(body);
     encoder.patch(4, static_cast<std::uint32_t>(encoder.position()));
-    send(encoder.octets(), now_ms);
+    return encoder.take();
   }
 
   template <Structure Body>
   void send_request(Body body, std::int64_t now_ms = 0) {
+    send_body(octets_of_request(std::move(body)), now_ms);
+  }
+  /// It has come, and the turn of the server has not.
+  template <Structure Body>
+  void send_later(Body body, std::int64_t now_ms = 0) {
+    bench_.server.take_in(id_, chunk_of(octets_of_request(std::move(body))), at(now_ms));
+  }
+  template <Structure Body>
+  std::vector<std::byte> octets_of_request(Body body) {
     body.request_header.authentication_token = token;
     body.request_header.request_handle = request_ + 1;
     Encoder encoder;
     encode_message(encoder, body);
-    send_body(encoder.octets(), now_ms);
+    return encoder.take();
   }
 
   struct Received {

@@ -5,7 +5,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <system_error>
 
 #include "node/program_reporter.hpp"
@@ -36,19 +35,25 @@ std::uint8_t chance_of(security::RandomOctets& random) {
 
 }  // namespace
 
-std::unique_ptr<KeyPuller> KeyPuller::make(const LoadedConfig& loaded, const std::string& folder, KeyMailbox& mailbox, std::string& problem) {
+std::unique_ptr<KeyPuller> KeyPuller::make(const LoadedConfig& loaded, const std::string& folder, KeyMailbox& mailbox,
+                                           Notices& notices, std::string& problem) {
   const KeyServiceAccess& access = *loaded.config.security->key_service;
   security::SystemRandom random;
   auto identity = own_identity(loaded.config, access.pki, folder, random, problem);
   if (!identity) return nullptr;
-  std::unique_ptr<KeyPuller> made(new KeyPuller(loaded, std::move(*identity), mailbox));
+  std::unique_ptr<KeyPuller> made(new KeyPuller(loaded, std::move(*identity), mailbox, notices));
   if (made->stop_.is_open() && mailbox.is_open()) return made;
   problem = what_failed("keys of a key service");
   return nullptr;
 }
 
-KeyPuller::KeyPuller(const LoadedConfig& loaded, opcua::Identity identity, KeyMailbox& mailbox)
-    : access_(*loaded.key_access), endpoint_(loaded.config.security->key_service->endpoint), identity_(std::move(identity)), mailbox_(mailbox), keys_(loaded.config.security->policy),
+KeyPuller::KeyPuller(const LoadedConfig& loaded, opcua::Identity identity, KeyMailbox& mailbox, Notices& notices)
+    : access_(*loaded.key_access),
+      endpoint_(loaded.config.security->key_service->endpoint),
+      identity_(std::move(identity)),
+      mailbox_(mailbox),
+      notices_(notices),
+      keys_(loaded.config.security->policy),
       buffer_(most_octets_of_answer) {
   settings_.endpoint_url = endpoint_;
   settings_.application_uri = identity_.certificate.application_uri();
@@ -101,6 +106,7 @@ void KeyPuller::run() {
 void KeyPuller::wait() {
   while (!is_over_) {
     tell_if_none_are_left();
+    notices_.flush();
     const std::int64_t now_ns = boot_ns();
     const bool hears_wishes = now_ns >= plan_.wishes_from_ns();
     const std::int64_t until_ns = hears_wishes ? plan_.next_ns() : std::min(plan_.next_ns(), plan_.wishes_from_ns());
@@ -203,12 +209,13 @@ std::string KeyPuller::take(const opcua::CallMethodResult& result) {
 /// What goes on as before is not told again.
 void KeyPuller::tell(const std::string& problem) {
   if (problem.empty()) {
-    if (!has_told_keys_ || !told_.empty()) std::fprintf(stderr, "takt: keys of %s: pulled from %s\n", access_.group.c_str(), endpoint_.c_str());
+    if (!has_told_keys_ || !told_.empty())
+      notices_.say(fmt::format("keys of {}: pulled from {}", access_.group, endpoint_));
     has_told_keys_ = true;
     has_told_none_ = false;
   } else if (problem != told_) {
     const std::string until = keys_.is_empty() ? "nothing is sent without keys" : fmt::format("those that are there last for {} s", std::max<std::int64_t>(keys_.ends_ns() - boot_ns(), 0) / 1'000'000'000);
-    std::fprintf(stderr, "takt: keys of %s: %s: %s; %s\n", access_.group.c_str(), endpoint_.c_str(), problem.c_str(), until.c_str());
+    notices_.say(fmt::format("keys of {}: {}: {}; {}", access_.group, endpoint_, problem, until));
   }
   told_ = problem;
 }
@@ -216,7 +223,7 @@ void KeyPuller::tell(const std::string& problem) {
 void KeyPuller::tell_if_none_are_left() {
   if (has_told_none_ || keys_.is_empty() || boot_ns() < keys_.ends_ns() + last_key_goes_on_for * keys_.schedule().lifetime_ns) return;
   has_told_none_ = true;
-  std::fprintf(stderr, "takt: keys of %s: the last one has ended; nothing is sent without keys\n", access_.group.c_str());
+  notices_.say(fmt::format("keys of {}: the last one has ended; nothing is sent without keys", access_.group));
 }
 
 }  // namespace takt::node

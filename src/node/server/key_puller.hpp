@@ -11,6 +11,7 @@
 #include "node/config.hpp"
 #include "node/hand_over.hpp"
 #include "node/key_mailbox.hpp"
+#include "node/notices.hpp"
 #include "node/server/name_lookup.hpp"
 #include "node/server/pki.hpp"
 #include "node/server/tcp_listener.hpp"
@@ -22,8 +23,10 @@ namespace takt::node {
 
 class KeyPuller {
  public:
-  /// Null, and `problem` says why, if the machine does not give what it needs. `mailbox` outlives it. `folder` is where the node's file is.
-  static std::unique_ptr<KeyPuller> make(const LoadedConfig& loaded, const std::string& folder, KeyMailbox& mailbox, std::string& problem);
+  /// Null, and `problem` says why, if the machine does not give what it needs. `mailbox` and `notices` outlive it.
+  /// `folder` is where the node's file is.
+  static std::unique_ptr<KeyPuller> make(const LoadedConfig& loaded, const std::string& folder, KeyMailbox& mailbox,
+                                         Notices& notices, std::string& problem);
   ~KeyPuller();
 
   /// Throws std::system_error if the machine gives no thread.
@@ -32,7 +35,7 @@ class KeyPuller {
   void stop();
 
  private:
-  KeyPuller(const LoadedConfig& loaded, opcua::Identity identity, KeyMailbox& mailbox);
+  KeyPuller(const LoadedConfig& loaded, opcua::Identity identity, KeyMailbox& mailbox, Notices& notices);
 
   void run();
   /// "", or what went wrong.
@@ -51,6 +54,7 @@ class KeyPuller {
   std::string endpoint_;
   opcua::Identity identity_;
   KeyMailbox& mailbox_;
+  Notices& notices_;
   security::SystemRandom random_;
   opcua::CallClientSettings settings_;
   security::PulledKeys keys_;

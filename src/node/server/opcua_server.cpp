@@ -4,7 +4,6 @@
 #include <time.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "node/program_reporter.hpp"
 #include "node/server/describe_programs.hpp"
@@ -14,9 +13,11 @@ namespace takt::node {
 namespace {
 
 constexpr std::size_t most_octets_at_once = 65'536;
-constexpr std::size_t most_told = 256;
+constexpr std::size_t most_draining = 100;
 constexpr Duration drain = opcua::milliseconds(1000);
-constexpr Duration trust_check = opcua::milliseconds(1000);
+constexpr Duration look_every = opcua::milliseconds(1000);
+constexpr Duration check_trust_every = opcua::milliseconds(30'000);  // certificates expire
+constexpr int begin_anew_after_ms = 500;
 
 std::int64_t monotonic_ns() {
   timespec time = {};
@@ -53,6 +54,12 @@ opcua::Limits limits_of(const ServerLimits& set) {
   take(limits.tokens.least, set.least_token);
   take(limits.tokens.most, set.most_token);
   take(limits.least_publishing, set.least_publishing);
+  take(limits.session_grace, set.session_grace);
+  take(limits.most_subscription, set.most_subscription);
+  take(limits.orphan_subscription, set.orphan_subscription);
+  take(limits.session_octets, set.session_octets);
+  take(limits.user_octets, set.user_octets);
+  take(limits.all_octets, set.all_octets);
   return limits;
 }
 
@@ -74,7 +81,9 @@ opcua::StatusCode status_of(program::StatusCode status) { return static_cast<opc
 
 }  // namespace
 
-std::unique_ptr<OpcUaServer> OpcUaServer::make(const LoadedConfig& loaded, std::vector<opcua::User> users, const std::string& folder, HandOver& hand_over, std::string version, std::string& problem) {
+std::unique_ptr<OpcUaServer> OpcUaServer::make(const LoadedConfig& loaded, std::vector<opcua::User> users,
+                                               const std::string& folder, HandOver& hand_over, Notices& notices,
+                                               std::string version, std::string& problem) {
   const ServerConfig& config = *loaded.config.server;
   const std::string& node = loaded.config.node;
   const EndpointAddress address = *parse_endpoint(config.endpoint);
@@ -84,12 +93,13 @@ std::unique_ptr<OpcUaServer> OpcUaServer::make(const LoadedConfig& loaded, std::
   }
   auto listener = TcpListener::open(address, problem);
   if (!listener) return nullptr;
-  std::unique_ptr<OpcUaServer> made(new OpcUaServer(config, Pki(pki_folder(loaded.config, {}, folder)), std::move(listener), hand_over));
+  std::unique_ptr<OpcUaServer> made(
+      new OpcUaServer(config, Pki(pki_folder(loaded.config, {}, folder)), std::move(listener), hand_over, notices));
   if (!made->stop_.is_open()) {
     problem = what_failed("a server");
     return nullptr;
   }
-  opcua::ServerSettings settings;
+  opcua::ServerSettings& settings = made->settings_;
   settings.application_uri = application_uri_of(loaded.config);
   settings.application_name = "takt node " + node;
   settings.software_version = std::move(version);
@@ -101,21 +111,42 @@ std::unique_ptr<OpcUaServer> OpcUaServer::make(const LoadedConfig& loaded, std::
   settings.halt_without_encryption = config.halt_without_encryption;
   settings.limits = limits_of(config.limits.value_or(ServerLimits()));
 
-  auto identity = own_identity(loaded.config, {}, folder, made->random_, problem);
-  if (!identity) return nullptr;
+  made->identity_ = own_identity(loaded.config, {}, folder, made->random_, problem);
+  if (!made->identity_) return nullptr;
   for (const LoadedGroup& each : loaded.served) made->groups_.push_back(each.keys.group);
   if (!loaded.served.empty())
     made->keys_ = std::make_unique<ServedKeys>(loaded.served, config.key_service->future_keys, [clock = loaded.config.clock] { return key_time_ns(clock); });
-  opcua::ProgramHost& host = *made;
-  opcua::ServerLog& log = *made;
-  made->server_ = std::make_unique<opcua::Server>(std::move(settings), std::move(*identity), made->random_, host, log, describe_programs(loaded), made->now(), made->keys_.get());
-  made->pki_.has_changed(made->trust_stamp_);
-  made->server_->trust(made->pki_.trust_list());
+  made->programs_ = describe_programs(loaded);
+  made->build();
   return made;
 }
 
-OpcUaServer::OpcUaServer(const ServerConfig& config, Pki pki, std::unique_ptr<TcpListener> listener, HandOver& hand_over)
-    : config_(config), pki_(std::move(pki)), listener_(std::move(listener)), hand_over_(hand_over), started_ns_(monotonic_ns()), buffer_(most_octets_at_once) {}
+OpcUaServer::OpcUaServer(const ServerConfig& config, Pki pki, std::unique_ptr<TcpListener> listener,
+                         HandOver& hand_over, Notices& notices)
+    : config_(config),
+      pki_(std::move(pki)),
+      listener_(std::move(listener)),
+      hand_over_(hand_over),
+      notices_(notices),
+      started_ns_(monotonic_ns()),
+      buffer_(most_octets_at_once) {}
+
+void OpcUaServer::build() {
+  server_ = std::make_unique<opcua::Server>(settings_, *identity_, random_, static_cast<opcua::ProgramHost&>(*this),
+                                            static_cast<opcua::ServerLog&>(*this), programs_, now(), keys_.get());
+  for (const opcua::ProgramNews& each : known_) server_->news(each, now());
+  pki_.has_changed(trust_stamp_);
+  take_trust_list();
+}
+
+void OpcUaServer::take_trust_list() {
+  std::vector<std::string> passed_over;
+  opcua::TrustList list = pki_.trust_list(passed_over);
+  for (const std::string& each : passed_over) notices_.say("server: not in the trust list: " + each);
+  for (const std::string& each : opcua::authorities_without_list(list))
+    notices_.say("server: no revocation list of " + cut_text(each) + ": what it has revoked is not known");
+  server_->trust(std::move(list));
+}
 
 OpcUaServer::~OpcUaServer() {
   is_over_ = true;
@@ -146,22 +177,47 @@ std::string OpcUaServer::text() const {
 
 bool OpcUaServer::call(std::uint64_t serial, std::size_t program, program::Method method) { return hand_over_.call({serial, static_cast<std::uint16_t>(program), method}); }
 
-/// Once of a host and a reason: who is refused again and again fills no log.
-void OpcUaServer::refused(std::string_view source, std::string_view what) {
-  const std::string host(source.substr(0, source.rfind(':')));
-  if (told_.size() > most_told || !told_.insert(host + " " + std::string(what)).second) return;
-  if (told_.size() > most_told)
-    std::fprintf(stderr, "takt: server: no more is said of what is refused\n");
-  else
-    std::fprintf(stderr, "takt: server: refused from %s: %.*s\n", host.c_str(), static_cast<int>(what.size()), what.data());
+void OpcUaServer::refused(std::string_view source, std::string_view what, std::string_view detail) {
+  if (const auto line = refusals_.take(opcua::host_of(source), std::string(what), cut_text(detail), now().local))
+    notices_.say(*line);
 }
 
-void OpcUaServer::rejected(const security::Certificate& certificate) { pki_.keep_rejected(certificate); }
+void OpcUaServer::rejected(std::string_view source, const security::Certificate& certificate) {
+  ++state_.rejected;
+  pki_.keep_rejected(certificate, opcua::host_of(source));
+}
 
 opcua::Now OpcUaServer::now() const { return {sim::LocalTime::from_ps((monotonic_ns() - started_ns_) * 1000), utc_now()}; }
 
+/// Whatever fails, the server comes back: its clients must connect anew, the cycle has noticed nothing.
 void OpcUaServer::run() {
   become_ordinary();
+  while (!is_over_) {
+    try {
+      if (server_ == nullptr) build();
+      serve();
+    } catch (const std::exception& failure) {
+      begin_anew(failure.what());
+    }
+  }
+}
+
+/// First everything is freed: what fails is memory more often than not.
+void OpcUaServer::begin_anew(const std::string& failure) {
+  open_.clear();
+  server_.reset();
+  ++state_.restarts;
+  state_.failure = failure;
+  try {
+    notices_.say("server: it has failed and begins anew: " + failure);
+    publish_state(false);
+  } catch (const std::bad_alloc&) {  // nothing can be said now; the count can
+  }
+  pollfd stopped{stop_.file_descriptor(), POLLIN, 0};
+  ::poll(&stopped, 1, begin_anew_after_ms);
+}
+
+void OpcUaServer::serve() {
   std::vector<pollfd> waiting;
   std::vector<opcua::ConnectionId> whose;
   while (!is_over_) {
@@ -169,20 +225,20 @@ void OpcUaServer::run() {
     whose.assign(waiting.size(), 0);
     for (const auto& [id, open] : open_) {
       const bool has_output = !server_->output(id).empty();
-      waiting.push_back({open.connection.file_descriptor(), static_cast<short>(POLLIN | (has_output ? POLLOUT : 0)), 0});
+      const bool takes = server_->takes_octets(id);
+      waiting.push_back({takes || has_output ? open.connection.file_descriptor() : -1,
+                         static_cast<short>((takes ? POLLIN : 0) | (has_output ? POLLOUT : 0)), 0});
       whose.push_back(id);
     }
     ::poll(waiting.data(), waiting.size(), wait_ms());
     if (is_over_) return;
-    if (waiting[1].revents != 0) take_reports();
     for (std::size_t i = 3; i < waiting.size(); ++i)
       if ((waiting[i].revents & (POLLIN | POLLHUP | POLLERR)) != 0) take_octets(whose[i], open_.at(whose[i]));
+    server_->serve_calls(now());  // before what the cycle reports, and all that follows from it
+    if (waiting[1].revents != 0) take_reports();
     if (waiting[2].revents != 0) take_connections();
     server_->advance(now());
-    if (now().local - trust_checked_ >= trust_check) {
-      trust_checked_ = now().local;
-      if (pki_.has_changed(trust_stamp_)) server_->trust(pki_.trust_list());
-    }
+    if (now().local - looked_around_ >= look_every) look_around();
     for (auto at = open_.begin(); at != open_.end();) {
       if (give_octets(at->first, at->second)) {
         ++at;
@@ -192,6 +248,30 @@ void OpcUaServer::run() {
       at = open_.erase(at);
     }
   }
+}
+
+/// Once a second.
+void OpcUaServer::look_around() {
+  looked_around_ = now().local;
+  const bool is_other = pki_.has_changed(trust_stamp_);
+  if (is_other) take_trust_list();
+  if (is_other || now().local - trust_checked_ >= check_trust_every) {
+    trust_checked_ = now().local;
+    server_->check_trust(now());
+  }
+  while (const auto line = refusals_.due(now().local)) notices_.say(*line);
+  notices_.flush();
+  publish_state(true);
+}
+
+void OpcUaServer::publish_state(bool is_running) {
+  state_.is_running = is_running;
+  state_.connections = server_ ? server_->connections() : 0;
+  state_.sessions = server_ ? server_->services().sessions() : 0;
+  state_.subscriptions = server_ ? server_->services().subscriptions() : 0;
+  state_.octets = server_ ? server_->services().octets() : 0;
+  state_.refused = refusals_.count();
+  hand_over_.tell(state_);
 }
 
 int OpcUaServer::wait_ms() const {
@@ -206,15 +286,25 @@ int OpcUaServer::wait_ms() const {
 void OpcUaServer::take_reports() {
   hand_over_.clear_reports_wake();
   while (const auto report = hand_over_.next_report()) {
-    if (report->answered != 0)
+    if (report->answered != 0) {
       server_->answered(report->answered, status_of(report->status), now());
-    else
+    } else {
+      keep(report->news);
       server_->news(report->news, now());
+    }
   }
   if (const std::uint64_t lost = hand_over_.lost(); lost != lost_told_) {
     lost_told_ = lost;
-    std::fprintf(stderr, "takt: server: %llu reports of the cycle were lost: the server did not keep up\n", static_cast<unsigned long long>(lost));
+    notices_.say("server: " + std::to_string(lost) + " reports of the cycle were lost: the server did not keep up");
   }
+}
+
+/// What a server that begins anew must know: the last of each kind, in the order in which they came.
+void OpcUaServer::keep(const opcua::ProgramNews& news) {
+  std::erase_if(known_, [&](const opcua::ProgramNews& each) {
+    return each.program == news.program && each.kind == news.kind && each.peer == news.peer;
+  });
+  known_.push_back(news);
 }
 
 void OpcUaServer::take_connections() {
@@ -232,7 +322,7 @@ void OpcUaServer::take_octets(opcua::ConnectionId id, Open& open) {
   switch (open.connection.receive(buffer_, octets)) {
     case TcpConnection::Came::nothing: return;
     case TcpConnection::Came::octets:
-      if (!server_->is_closing(id)) server_->received(id, opcua::Octets(buffer_).first(octets), now());
+      if (!server_->is_closing(id)) server_->take_in(id, opcua::Octets(buffer_).first(octets), now());
       return;
     case TcpConnection::Came::end:
       open.has_ended_sending = true;
@@ -241,7 +331,9 @@ void OpcUaServer::take_octets(opcua::ConnectionId id, Open& open) {
 }
 
 bool OpcUaServer::give_octets(opcua::ConnectionId id, Open& open) {
-  if (open.has_ended_sending) return now().local < open.drained_until;
+  // Who is refused in crowds is not waited for: descriptors are few.
+  if (open.has_ended_sending)
+    return now().local < open.drained_until && open_.size() <= settings_.limits.connections + most_draining;
   while (!server_->output(id).empty()) {
     const auto sent = open.connection.send(server_->output(id));
     if (!sent) return false;

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <tuple>
 
 #include "node/program_reporter.hpp"
 
@@ -35,8 +36,10 @@ std::string read_file(const fs::path& path) {
 
 security::Octets octets_of(const std::string& text) { return std::as_bytes(std::span(text.data(), text.size())); }
 
+enum class Durability : std::uint8_t { now, whenever };
+
 /// Whole or not at all, and from the beginning with these permissions.
-bool write_file(const fs::path& path, security::Octets octets, mode_t mode) {
+bool write_file(const fs::path& path, security::Octets octets, mode_t mode, Durability durability = Durability::now) {
   const std::string temporary = path.string() + ".new";
   ::unlink(temporary.c_str());
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, mode);
@@ -47,26 +50,41 @@ bool write_file(const fs::path& path, security::Octets octets, mode_t mode) {
     if (more <= 0) break;
     written += static_cast<std::size_t>(more);
   }
-  const bool is_written = written == octets.size() && ::fsync(fd) == 0;
+  const bool is_written = written == octets.size() && (durability == Durability::whenever || ::fsync(fd) == 0);
   ::close(fd);
   if (is_written && ::rename(temporary.c_str(), path.c_str()) == 0) return true;
   ::unlink(temporary.c_str());
   return false;
 }
 
+/// Who may write there decides who is trusted.
+bool may_others_write(const fs::path& path) {
+  struct stat status = {};
+  return ::stat(path.c_str(), &status) != 0 || (status.st_mode & 022) != 0 ||
+         (status.st_uid != ::geteuid() && status.st_uid != 0);
+}
+
 /// Each file of a folder, in the order of their names, as DER or as PEM.
 template <class T>
-void read_all(const fs::path& folder, std::vector<T>& into) {
+void read_all(const fs::path& folder, std::vector<T>& into, std::vector<std::string>& passed_over) {
   std::error_code error;
+  if (may_others_write(folder))
+    return passed_over.push_back(folder.string() + " belongs to another user, or others may write there");
   std::vector<fs::path> paths;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   for (const fs::path& path : paths) {
     if (into.size() >= most_files) return;
+    if (may_others_write(path)) {
+      passed_over.push_back(path.string() + " belongs to another user, or others may write it");
+      continue;
+    }
     const std::string text = read_file(path);
     auto found = T::from_der(octets_of(text));
     if (!found) found = T::from_pem(text);
     if (found) into.push_back(std::move(*found));
+    else
+      passed_over.push_back(path.string() + " is neither a certificate nor a revocation list, as it should be here");
   }
 }
 
@@ -86,7 +104,9 @@ bool may_others_read(const fs::path& path) {
 
 std::optional<opcua::Identity> Pki::identity(const security::OwnCertificate& of, security::RandomOctets& random, std::string& problem) const {
   std::error_code error;
-  for (const char* const each : folders) fs::create_directories(fs::path(folder_) / each, error);
+  for (const char* const each : folders)
+    if (fs::create_directories(fs::path(folder_) / each, error))
+      ::chmod((fs::path(folder_) / each).c_str(), 0755);  // whatever the umask: nobody else writes there
   const fs::path key_path = fs::path(folder_) / "own/private/key.pem";
   const fs::path certificate_path = fs::path(folder_) / "own/certs/certificate.der";
   if (error) {
@@ -138,12 +158,12 @@ std::optional<opcua::Identity> Pki::identity(const security::OwnCertificate& of,
   }
 }
 
-opcua::TrustList Pki::trust_list() const {
+opcua::TrustList Pki::trust_list(std::vector<std::string>& passed_over) const {
   opcua::TrustList list;
-  read_all(fs::path(folder_) / "trusted/certs", list.trusted);
-  read_all(fs::path(folder_) / "issuers/certs", list.issuers);
-  read_all(fs::path(folder_) / "trusted/crl", list.revoked);
-  read_all(fs::path(folder_) / "issuers/crl", list.revoked);
+  read_all(fs::path(folder_) / "trusted/certs", list.trusted, passed_over);
+  read_all(fs::path(folder_) / "issuers/certs", list.issuers, passed_over);
+  read_all(fs::path(folder_) / "trusted/crl", list.revoked, passed_over);
+  read_all(fs::path(folder_) / "issuers/crl", list.revoked, passed_over);
   return list;
 }
 
@@ -159,13 +179,28 @@ bool Pki::has_changed(std::int64_t& stamp) const {
   return is_other;
 }
 
-void Pki::keep_rejected(const security::Certificate& certificate) const {
+void Pki::keep_rejected(const security::Certificate& certificate, const std::string& host) {
   const fs::path folder = fs::path(folder_) / "rejected";
-  const fs::path path = folder / (hexadecimal(certificate.thumbprint()) + ".der");
+  const std::string name = hexadecimal(certificate.thumbprint()) + ".der";
   std::error_code error;
-  if (fs::exists(path, error)) return;
-  const auto kept = std::distance(fs::directory_iterator(folder, error), fs::directory_iterator());
-  if (!error && static_cast<std::size_t>(kept) < most_rejected) write_file(path, certificate.der(), 0644);
+  if (fs::exists(folder / name, error)) return;
+  std::vector<std::tuple<fs::file_time_type, std::string>> kept;
+  for (const fs::directory_entry& each : fs::directory_iterator(folder, error))
+    kept.emplace_back(each.last_write_time(error), each.path().filename().string());
+  std::sort(kept.begin(), kept.end());
+  std::erase_if(rejected_of_, [&](const auto& each) { return !fs::exists(folder / each.first, error); });
+  while (kept.size() >= most_rejected) {
+    std::map<std::string, std::size_t> of_host;
+    for (const auto& each : kept) ++of_host[rejected_of_[std::get<1>(each)]];
+    const auto most = std::max_element(of_host.begin(), of_host.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto oldest = std::find_if(kept.begin(), kept.end(),
+                                     [&](const auto& each) { return rejected_of_[std::get<1>(each)] == most->first; });
+    rejected_of_.erase(std::get<1>(*oldest));
+    if (!fs::remove(folder / std::get<1>(*oldest), error)) return;
+    kept.erase(oldest);
+  }
+  if (write_file(folder / name, certificate.der(), 0644, Durability::whenever)) rejected_of_[name] = host;
 }
 
 std::string application_uri_of(const Config& config) {

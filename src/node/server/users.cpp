@@ -1,10 +1,9 @@
 #include "node/server/users.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 
 #include "json/reader.hpp"
+#include "node/private_file.hpp"
 #include "security/random.hpp"
 
 namespace takt::node {
@@ -26,14 +25,16 @@ const json::Object& describe(json::Type<UserFile>) {
 }
 
 std::optional<std::vector<opcua::User>> load_users(const std::string& path, json::Diagnostics& diagnostics) {
-  const auto document = json::parse_file(path, diagnostics);
+  json::Place place;
+  place.file = path;
+  auto text = read_private(path, "users", place, diagnostics);
+  if (!text) return std::nullopt;
+  const auto document = json::parse(*text, path, diagnostics);
+  wipe(*text);
   if (!document) return std::nullopt;
   UserFile file;
   json::decode(*document, file, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
-  struct stat status = {};
-  if (::stat(path.c_str(), &status) != 0 || (status.st_mode & 077) != 0)
-    diagnostics.error(file.where.place(), "a file of users that others may read", {path, "only its owner may read it: chmod 600"});
   std::vector<opcua::User> users;
   for (const UserEntry& each : file.users) {
     const auto hash = security::PasswordHash::parse(each.password);

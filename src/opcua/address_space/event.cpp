@@ -22,6 +22,22 @@ std::string path_of(const List<QualifiedName>& names) {
   return path;
 }
 
-bool is_event_field(const std::string& path) { return std::find(std::begin(event_fields), std::end(event_fields), path) != std::end(event_fields); }
+std::optional<std::size_t> event_field(const std::string& path) {
+  const auto found = std::find(std::begin(event_fields), std::end(event_fields), path);
+  return found == std::end(event_fields) ? std::nullopt
+                                         : std::optional(static_cast<std::size_t>(found - std::begin(event_fields)));
+}
+
+EventRecord::EventRecord(Event event, std::uint64_t number)
+    : event_(std::move(event)),
+      number_(number),
+      octets_(sizeof(EventRecord) + std::size(event_fields) * sizeof(void*)) {
+  static const Variant none;
+  for (const std::string_view path : event_fields) {
+    const auto found = event_.fields.find(std::string(path));
+    by_number_.push_back(found == event_.fields.end() ? &none : &found->second);
+  }
+  for (const auto& [path, value] : event_.fields) octets_ += path.size() + octets_of(value);
+}
 
 }  // namespace takt::opcua

@@ -266,6 +266,8 @@ Event ProgramNodes::audit(const CallRecord* call, bool caused, std::uint32_t old
   return event;
 }
 
+std::uint32_t ProgramNodes::state_id_now() const { return state_id(state_); }
+
 std::vector<Event> ProgramNodes::called(const CallRecord& call) {
   diagnostic_.last_method_call = Text(program::name_of(call.method));
   diagnostic_.last_method_session_id = call.session;
@@ -273,7 +275,7 @@ std::vector<Event> ProgramNodes::called(const CallRecord& call) {
   diagnostic_.last_method_return_status = call.status;
   set_diagnostic(call.time);
   if (is_good(call.status)) return {};
-  return {audit(&call, false, state_id(state_), state_id(state_), 0, call.time)};
+  return {refused(call)};
 }
 
 }  // namespace takt::opcua

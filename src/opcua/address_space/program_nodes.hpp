@@ -40,6 +40,8 @@ class ProgramNodes {
   void calling(const CallRecord& call) { last_call_ = call; }
   /// A call has been answered. An event if it was refused: those that were not come with their transition.
   std::vector<Event> called(const CallRecord& call);
+  /// The event of a call that was refused before it came to the Program.
+  Event refused(const CallRecord& call) { return audit(&call, false, state_id_now(), state_id_now(), 0, call.time); }
 
  private:
   NodeId child(std::string_view path) const { return NodeId(own_namespace, name_ + "." + std::string(path)); }
@@ -50,6 +52,7 @@ class ProgramNodes {
   void add_group(const ProgramDescription& description);
   void set(std::string_view path, Variant value, DateTime time) { space_.set_value(child(path), std::move(value), time); }
   void set_state(handshake::PublishedState state, DateTime time);
+  std::uint32_t state_id_now() const;
   void set_diagnostic(DateTime time);
   void watch_reaction(DateTime time);
   Event base_event(NodeId type, std::string_view source_name, DateTime time, std::uint16_t severity, const std::string& message);

@@ -1,6 +1,8 @@
 // Chunks that have been opened, put together to messages again.
 #pragma once
 
+#include <utility>
+
 #include "opcua/channel/secure_channel.hpp"
 
 namespace takt::opcua {
@@ -10,8 +12,10 @@ class MessageAssembler {
  public:
   enum class Verdict : std::uint8_t { more, complete, dropped, too_large, mixed };
   Verdict take(const OpenedChunk& chunk, std::size_t most_octets, std::size_t most_chunks);
-  /// The whole message, until the next chunk.
-  Octets message() const { return collected_; }
+  /// The whole message, once.
+  std::vector<std::byte> take_message() { return std::exchange(collected_, {}); }
+  /// Octets that wait for the rest of their message.
+  std::size_t held() const { return collected_.size(); }
 
  private:
   std::vector<std::byte> collected_;

@@ -18,6 +18,9 @@ struct TrustVerdict {
   const char* reason = "";               ///< what the log says
 };
 
+/// The subjects of authorities of which there is no revocation list: what they have revoked is not known here.
+std::vector<std::string> authorities_without_list(const TrustList& trust);
+
 /// The checks in the order of the standard: key and signature, chain and trust, revocation, validity (`now_s` since 1970), usage. The URI is CreateSession's matter.
 TrustVerdict check_certificate(const security::Certificate& certificate, const TrustList& trust, std::int64_t now_s);
 

@@ -186,7 +186,7 @@ void CallClient::take_chunk(Octets message, Now now) {
     case Verdict::too_large: return fail("an answer that is too long");
     case Verdict::complete:
       if (opened.sequence.request_id != request_) return fail("an answer to something that was not asked");
-      take_response(assembler_.message(), now);
+      take_response(assembler_.take_message(), now);
   }
   security::wipe(chunk);
 }

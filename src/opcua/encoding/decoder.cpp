@@ -197,6 +197,43 @@ std::optional<double> number_in(const Variant& value) {
       value.values.front());
 }
 
+namespace {
+
+struct OctetsOfScalar {
+  std::size_t operator()(const Text& text) const { return text.value.size(); }
+  std::size_t operator()(const Bytes& octets) const { return octets.value.size(); }
+  std::size_t operator()(const XmlElement& xml) const { return xml.octets.value.size(); }
+  std::size_t operator()(const QualifiedName& name) const { return name.name.value.size(); }
+  std::size_t operator()(const LocalizedText& text) const { return text.locale.value.size() + text.text.value.size(); }
+  std::size_t operator()(const NodeId& id) const {
+    const auto* const text = std::get_if<Text>(&id.id);
+    const auto* const octets = std::get_if<Bytes>(&id.id);
+    return text != nullptr ? text->value.size() : octets != nullptr ? octets->value.size() : 0;
+  }
+  std::size_t operator()(const ExpandedNodeId& id) const { return (*this)(id.id) + id.namespace_uri.value.size(); }
+  std::size_t operator()(const ExtensionObject& object) const {
+    return (*this)(object.type) + object.body.value.size();
+  }
+  std::size_t operator()(const Boxed<Variant>& boxed) const { return boxed.value ? octets_of(*boxed.value) : 0; }
+  std::size_t operator()(const Boxed<DataValue>& boxed) const { return boxed.value ? octets_of(*boxed.value) : 0; }
+  template <class Plain>
+  std::size_t operator()(const Plain&) const {
+    return 0;
+  }
+};
+
+}  // namespace
+
+std::size_t octets_of(const Variant& value) {
+  std::size_t octets = sizeof(Variant) + value.dimensions.size() * sizeof(std::int32_t);
+  for (const Scalar& each : value.values) octets += sizeof(Scalar) + std::visit(OctetsOfScalar(), each);
+  return octets;
+}
+
+std::size_t octets_of(const DataValue& value) {
+  return sizeof(DataValue) + (value.value ? octets_of(*value.value) - sizeof(Variant) : 0);
+}
+
 std::string to_text(const NodeId& id) {
   constexpr std::string_view digits = "0123456789abcdef";
   const auto hexadecimal = [&](Octets octets) {

@@ -84,4 +84,8 @@ struct DataValue {
 /// A number, or a Boolean, as a double; nothing for the rest.
 std::optional<double> number_in(const Variant& value);
 
+/// That it takes in memory, about: what is counted against a budget.
+std::size_t octets_of(const Variant& value);
+std::size_t octets_of(const DataValue& value);
+
 }  // namespace takt::opcua

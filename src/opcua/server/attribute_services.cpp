@@ -48,6 +48,7 @@ Answer<ReadResponse> Services::read(const Request& request, const ReadRequest& b
   if (!(body.max_age >= 0)) return StatusCode::BadMaxAgeInvalid;
   if (static_cast<std::uint32_t>(body.timestamps_to_return) > 3) return StatusCode::BadTimestampsToReturnInvalid;
   ReadResponse response;
+  spend(10 * body.nodes_to_read.size());
   for (const ReadValueId& each : body.nodes_to_read) response.results.push_back(read_one(*request.session, each, body.timestamps_to_return, request.now));
   return response;
 }
@@ -84,9 +85,10 @@ StatusCode Services::begin_method(const Request& request, const CallMethodReques
   const auto method = program != nullptr ? program->method(wanted.method_id) : std::nullopt;
   if (!method) return StatusCode::BadMethodInvalid;
   CallRecord record{*method, request.session->id, request.session->user, request.header.audit_entry_id, request.now.utc, StatusCode::Good};
+  // It has not come to the Program, whose diagnostic is of those that have; that somebody has tried is an event.
   const auto refuse = [&](StatusCode status) {
     record.status = status;
-    for (const Event& event : program->called(record)) tell(event);
+    tell(program->refused(record));
     return status;
   };
   if (!may_call(*request.session, *method)) return refuse(StatusCode::BadUserAccessDenied);

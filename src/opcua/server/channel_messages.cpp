@@ -6,8 +6,10 @@
 namespace takt::opcua {
 namespace {
 
-/// Of an OPN: one to decrypt each block of it, and one to sign the answer.
-constexpr std::size_t operations_of_open = 8;
+/// What an OPN says fits into less, whatever the keys.
+constexpr std::size_t most_blocks_of_open = 8;
+/// Of a request without a session: discovery, and signing in.
+constexpr std::size_t most_octets_of_strangers = 64 << 10;
 
 /// "opc.tcp://host:port" of a longer URL.
 std::string without_path(std::string_view url) {
@@ -28,6 +30,8 @@ void Server::take(Connection& connection, Octets message, Now now) {
     take_open(connection, message, now);
   else if (connection.stage == Connection::Stage::open && has_channel)
     take_message(connection, message, now);
+  else if (connection.stage == Connection::Stage::opening && has_channel)
+    refuse(connection, StatusCode::BadTcpSecureChannelUnknown, "a message on a channel that never was");
   else
     refuse(connection, StatusCode::BadTcpMessageTypeInvalid, "a message that is not due now");
 }
@@ -53,16 +57,6 @@ void Server::take_hello(Connection& connection, Octets message, Now now) {
   connection.put(framed(MessageType::Acknowledge, acknowledge));
 }
 
-bool Server::may_use_key(Now now) {
-  if (now.local - key_operations_since_ >= milliseconds(1000)) {
-    key_operations_since_ = now.local;
-    key_operations_ = 0;
-  }
-  if (key_operations_ + operations_of_open > settings_.limits.private_key_operations) return false;
-  key_operations_ += operations_of_open;
-  return true;
-}
-
 /// Everything that can be asked of a client before our private key is used for it.
 StatusCode Server::check_client(Connection& connection, const AsymmetricHeader& header, std::optional<security::Certificate>& client, Now now) {
   const auto& own = identity_.certificate.thumbprint();
@@ -71,8 +65,8 @@ StatusCode Server::check_client(Connection& connection, const AsymmetricHeader& 
   if (!client) return StatusCode::BadSecurityChecksFailed;
   const TrustVerdict verdict = check_certificate(*client, trust_, seconds_since_1970(now.utc));
   if (!is_good(verdict.status)) {
-    log_.refused(connection.source, "the certificate of " + client->subject() + ", " + verdict.reason);
-    if (verdict.status == StatusCode::BadSecurityChecksFailed) log_.rejected(*client);
+    log_.refused(connection.source, "a certificate", std::string(verdict.reason) + ": " + client->subject());
+    if (verdict.status == StatusCode::BadSecurityChecksFailed) log_.rejected(connection.source, *client);
   }
   return verdict.status;
 }
@@ -87,25 +81,37 @@ void Server::take_open(Connection& connection, Octets message, Now now) {
   if (!is_offered) return refuse(connection, StatusCode::BadSecurityPolicyRejected, "an OPN with a policy that is not offered");
   const auto channel_id = uadp::load_little_endian<std::uint32_t>(message.data() + message_header_octets);
   if (connection.channel && channel_id != connection.channel->id()) return refuse(connection, StatusCode::BadTcpSecureChannelUnknown, "an OPN of another channel");
-  std::optional<security::Certificate> client;
-  std::optional<std::vector<std::byte>> opened;
-  Octets clear = message.subspan(*clear_from);
+  if (connection.opening) return refuse(connection, StatusCode::BadTcpServerTooBusy, "an OPN behind one that waits");
   if (is_secured(policy->policy)) {
+    std::optional<security::Certificate> client;
     if (const StatusCode status = check_client(connection, header, client, now); !is_good(status)) return refuse(connection, status, "an OPN");
-    if (!may_use_key(now)) return refuse(connection, StatusCode::BadTcpServerTooBusy, "more OPNs a second than are served");
-    opened = open_asymmetric(message, *clear_from, *policy, identity_.key, client->key());
-    if (!opened) return refuse(connection, StatusCode::BadSecurityChecksFailed, "an OPN whose security does not hold");
-    clear = *opened;
+    if ((message.size() - *clear_from) / identity_.key.public_key().octets() > most_blocks_of_open)
+      return refuse(connection, StatusCode::BadTcpMessageTooLarge, "an OPN");
+    connection.opening =
+        WaitingOpen{{message.begin(), message.end()}, *clear_from, policy, std::move(*client), ++waited_};
+    return;
   }
+  answer_open(connection, message.subspan(*clear_from), {policy->policy, MessageSecurityMode::Invalid}, {}, now);
+}
+
+/// One for each block, and one for the signature of the answer.
+std::uint64_t Server::key_operations_of(const WaitingOpen& open) const {
+  return (open.message.size() - open.clear_from) / identity_.key.public_key().octets() + 1;
+}
+
+void Server::open_channel(Connection& connection, WaitingOpen open, Now now) {
+  const auto clear = open_asymmetric(open.message, open.clear_from, *open.policy, identity_.key, open.client.key());
+  if (!clear) return refuse(connection, StatusCode::BadSecurityChecksFailed, "an OPN whose security does not hold");
+  answer_open(connection, *clear, {open.policy->policy, MessageSecurityMode::Invalid}, std::move(open.client), now);
+}
+
+void Server::answer_open(Connection& connection, Octets clear, const ChannelSecurity& asked,
+                         std::optional<security::Certificate> client, Now now) {
   uadp::Reader reader(clear);
   SequenceHeader sequence;
   sequence.sequence_number = reader.get<std::uint32_t>();
   sequence.request_id = reader.get<std::uint32_t>();
-  answer_open(connection, sequence, reader.rest(), {policy->policy, MessageSecurityMode::Invalid}, std::move(client), now);
-}
-
-void Server::answer_open(Connection& connection, const SequenceHeader& sequence, Octets body, const ChannelSecurity& asked, std::optional<security::Certificate> client, Now now) {
-  Decoder decoder(body);
+  Decoder decoder(reader.rest());
   NodeId type;
   OpenSecureChannelRequest request;
   decode(decoder, type);
@@ -155,15 +161,34 @@ void Server::take_message(Connection& connection, Octets message, Now now) {
   std::vector<std::byte> chunk(message.begin(), message.end());
   OpenedChunk opened;
   if (const StatusCode status = connection.channel->open(chunk, now.local, opened); !is_good(status)) return refuse(connection, status, "a message whose security does not hold");
-  if (decode_message_header(message)->type == MessageType::CloseChannel) return close(connection);
+  if (decode_message_header(message)->type == MessageType::CloseChannel)
+    return connection.requests.push_back({0, {}, true});
   using Verdict = MessageAssembler::Verdict;
-  switch (connection.assembler.take(opened, settings_.limits.message_octets, settings_.limits.message_chunks)) {
+  const std::size_t most = services_.has_session(connection.id)
+                               ? settings_.limits.message_octets
+                               : std::min(settings_.limits.message_octets, most_octets_of_strangers);
+  switch (connection.assembler.take(opened, most, settings_.limits.message_chunks)) {
     case Verdict::more:
     case Verdict::dropped: return;
     case Verdict::mixed: return refuse(connection, StatusCode::BadSecurityChecksFailed, "chunks of two messages at once");
     case Verdict::too_large: return refuse(connection, StatusCode::BadTcpMessageTooLarge, "a request that is too long");
-    case Verdict::complete: dispatch(connection, opened.sequence.request_id, connection.assembler.message(), now);
+    case Verdict::complete:
+      queue_request(connection, opened.sequence.request_id, connection.assembler.take_message());
   }
+}
+
+void Server::queue_request(Connection& connection, std::uint32_t id, std::vector<std::byte> message) {
+  Decoder decoder(message);
+  NodeId type;
+  decode(decoder, type);
+  CallRequest call;
+  if (type == NodeId(CallRequest::encoding_id) && message.size() <= most_octets_of_strangers) decode(decoder, call);
+  if (!decoder.failed() && !call.methods_to_call.empty() && services_.is_urgent(connection.id, call)) {
+    calls_.push_back({connection.id, {id, std::move(message), false}});
+    return;
+  }
+  connection.waiting_octets += message.size();
+  connection.requests.push_back({id, std::move(message), false});
 }
 
 }  // namespace takt::opcua

@@ -32,21 +32,27 @@ StatusCode check_operations(const Body& operations, std::size_t most) {
 StatusCode Services::set_parameters(MonitoredItem& item, const Node& node, const MonitoringParameters& wanted, double publishing_ms, std::uint32_t& queue, double& sampling,
                                     ExtensionObject& filter_result) {
   const bool is_of_events = item.attribute() == AttributeId::EventNotifier;
-  std::optional<EventFilter> event_filter;
+  std::shared_ptr<const DecodedFilter> event_filter;
   DataChangeFilter change_filter;
   if (is_of_events) {
-    event_filter = structure_in<EventFilter>(wanted.filter);
-    if (!event_filter) return StatusCode::BadEventFilterInvalid;
-    const FilterCheck check = check_filter(*event_filter, space_);
+    const auto filter = structure_in<EventFilter>(wanted.filter);
+    if (!filter) return StatusCode::BadEventFilterInvalid;
+    const FilterCheck check = check_filter(*filter, space_, settings_.limits);
     if (check.has_errors) filter_result = extension_of(check.result);
     if (!check.is_usable) return StatusCode::BadEventFilterInvalid;
+    event_filter = std::make_shared<const DecodedFilter>(*filter);
+    spend(10 * (event_filter->steps() + event_filter->fields()));
   } else if (!wanted.filter.type.is_null()) {
     const auto filter = structure_in<DataChangeFilter>(wanted.filter);
     if (!filter) return structure_in<EventFilter>(wanted.filter) ? StatusCode::BadFilterNotAllowed : StatusCode::BadMonitoredItemFilterUnsupported;
     if (const StatusCode status = check_change_filter(*filter, item.attribute(), node); !is_good(status)) return status;
     change_filter = *filter;
   }
-  item.event_filter = std::move(event_filter);
+  std::swap(item.event_filter, event_filter);
+  if (!item.hold()) {
+    std::swap(item.event_filter, event_filter);
+    return StatusCode::BadTooManyMonitoredItems;
+  }
   item.filter = change_filter;
   item.client_handle = wanted.client_handle;
   item.discard_oldest = wanted.discard_oldest;
@@ -64,10 +70,12 @@ MonitoredItemCreateResult Services::create_item(const Request& request, Subscrip
     result.status_code = status;
     return result;
   };
+  spend(100);
   const Node* const node = space_.find(wanted.item_to_monitor.node_id);
   if (node == nullptr) return refused(StatusCode::BadNodeIdUnknown);
   if (!is_mode(wanted.monitoring_mode)) return refused(StatusCode::BadMonitoringModeInvalid);
-  MonitoredItem item;
+  MonitoredItem item(subscription.account);
+  item.events_before = events_;
   item.what = wanted.item_to_monitor;
   item.mode = wanted.monitoring_mode;
   item.timestamps = times;
@@ -88,7 +96,11 @@ MonitoredItemCreateResult Services::create_item(const Request& request, Subscrip
 }
 
 void Services::watch(const Subscription& subscription, const MonitoredItem& item, bool begins) {
-  if (item.is_of_events()) return;
+  if (item.is_of_events()) {
+    begins ? static_cast<void>(event_items_.emplace(subscription.id, item.id))
+           : static_cast<void>(event_items_.erase({subscription.id, item.id}));
+    return;
+  }
   const auto key = std::pair(item.what.node_id, item.attribute());
   const auto who = std::pair(subscription.id, item.id);
   auto& watchers = watchers_[key];
@@ -101,6 +113,7 @@ void Services::watch(const Subscription& subscription, const MonitoredItem& item
 
 void Services::put_current(Subscription& subscription, MonitoredItem& item, Now now) {
   if (item.is_of_events()) return;
+  spend(20);
   const auto session = sessions_.find(subscription.session);
   const Node* const node = space_.find(item.what.node_id);
   const DataValue value = value_for(session == sessions_.end() ? nullptr : &session->second, *node, item.attribute(), now);

@@ -11,7 +11,9 @@ CallMethodResult Services::get_security_keys(const Request& request, const CallM
   CallMethodResult result;
   const auto refuse = [&](StatusCode why) {
     result.status_code = why;
-    log_.refused(request.source, "keys for " + (session.user.empty() ? "a client without a name" : session.user.value) + ": " + std::string(short_name_of(why)));
+    log_.refused(request.source, "keys",
+                 (session.user.empty() ? "a client without a name" : session.user.value) + ": " +
+                     std::string(short_name_of(why)));
     return result;
   };
   if (wanted.method_id != NodeId(ids::get_security_keys) && wanted.method_id != NodeId(ids::get_security_keys_of_type)) return refuse(StatusCode::BadMethodInvalid);

@@ -31,10 +31,10 @@ class KeyService {
 class ServerLog {
  public:
   virtual ~ServerLog() = default;
-  /// Said once of a source and a reason.
-  virtual void refused(std::string_view source, std::string_view what) = 0;
+  /// `what` is one of few texts; `detail` may be a stranger's.
+  virtual void refused(std::string_view source, std::string_view what, std::string_view detail) = 0;
   /// A certificate that is not trusted; it is kept, so that it can be.
-  virtual void rejected(const security::Certificate& certificate) = 0;
+  virtual void rejected(std::string_view source, const security::Certificate& certificate) = 0;
 };
 
 /// Carries the body of a response to where its request came from.

@@ -5,10 +5,20 @@
 #include "opcua/address_space/key_service_nodes.hpp"
 
 namespace takt::opcua {
+namespace {
+
+constexpr std::uint64_t steps_of_turn =
+    50'000;  // for events, and again for subscriptions that are due: some milliseconds each
+constexpr std::uint64_t steps_of_event = 200;
+constexpr std::size_t most_waiting_events = 256;
+
+}  // namespace
 
 Services::Services(const ServerSettings& settings, const Identity& identity, security::RandomOctets& random, ProgramHost& host, ServerLog& log, Responder& responder,
                    const std::vector<ProgramDescription>& programs, KeyService* keys, Now now)
     : settings_(settings), identity_(identity), random_(random), host_(host), keys_(keys), log_(log), responder_(responder), now_(now) {
+  all_octets_ = std::make_shared<OctetAccount>(settings.limits.all_octets, nullptr);
+  all_buffers_ = std::make_shared<OctetAccount>(settings.limits.all_octets, nullptr);
   process_ = random_octets(8);
   std::vector<std::byte> first = random_octets(8);
   last_session_ = uadp::load_little_endian<std::uint32_t>(first.data()) & 0x7FFF'FFFFU;
@@ -50,6 +60,9 @@ void Services::add_server_nodes(Now now) {
   set_standard(24095, Variant(static_cast<std::uint32_t>(limits.sessions)));
   set_standard(24096, Variant(static_cast<std::uint32_t>(limits.subscriptions)));
   set_standard(24098, Variant(static_cast<std::uint32_t>(limits.subscriptions_of_session)));
+  set_standard(24099, Variant(static_cast<std::uint32_t>(limits.select_clauses)));
+  set_standard(24100, Variant(static_cast<std::uint32_t>(limits.where_operands)));
+  set_standard(31916, Variant(static_cast<std::uint32_t>(std::max(limits.queue, limits.event_queue))));
   set_standard(24104, Variant(static_cast<std::uint32_t>(limits.items)));
   set_standard(2294, Variant(false));
   for (const std::uint32_t redundancy : {2296U, 3709U}) set_standard(redundancy, Variant(std::int32_t{0}));
@@ -95,15 +108,54 @@ void Services::tell(const Event& told) {
   id.resize(16);
   uadp::store_little_endian(id.data() + 8, ++events_);
   event.fields["EventId"] = Variant(Bytes(id));
-  for (auto& [number, subscription] : subscriptions_) {
-    const auto session = sessions_.find(subscription.session);
-    // Audit events are for those that nobody can read along with; without a session nobody is there to be told.
-    if (event.is_audit && (session == sessions_.end() || !session->second.security.is_encrypted())) continue;
-    for (auto& [item_id, item] : subscription.items) {
-      if (!item.is_of_events() || (item.what.node_id != NodeId(ids::server) && item.what.node_id != event.source)) continue;
-      if (lets_pass(item.event_filter->where_clause, event, space_)) item.put(EventFieldList{item.client_handle, selected_fields(*item.event_filter, event)});
+  spend(steps_of_event);
+  if (event_items_.empty()) return;
+  if (waiting_events_.size() < most_waiting_events)
+    waiting_events_.push_back(std::make_shared<const EventRecord>(std::move(event), events_));
+  else
+    has_lost_events_ = true;
+}
+
+/// Each event to one item after the other, until the budget of this turn is used up: whoever has many, or large
+/// filters, keeps nobody waiting who calls.
+void Services::distribute_events() {
+  const std::uint64_t until = steps_ + steps_of_turn;
+  while (!waiting_events_.empty()) {
+    const std::shared_ptr<const EventRecord> record = waiting_events_.front();
+    for (auto at = event_items_.upper_bound(told_); at != event_items_.end(); ++at) {
+      told_ = *at;
+      Subscription& subscription = subscriptions_.at(at->first);
+      distribute(record, subscription, subscription.items.at(at->second));
+      if (steps_ >= until) return;
     }
+    told_ = {};
+    waiting_events_.pop_front();
   }
+  if (!std::exchange(has_lost_events_, false)) return;
+  for (const auto& [subscription, item] : event_items_) subscriptions_.at(subscription).items.at(item).lose_events();
+}
+
+void Services::distribute(const std::shared_ptr<const EventRecord>& record, Subscription& subscription,
+                          MonitoredItem& item) {
+  spend(1);
+  const Event& event = record->event();
+  if (record->number() <= item.events_before ||
+      (item.what.node_id != NodeId(ids::server) && item.what.node_id != event.source))
+    return;
+  const auto session = sessions_.find(subscription.session);
+  // Audit events are for those that nobody can read along with; without a session nobody is there to be told.
+  if (event.is_audit && (session == sessions_.end() || !session->second.security.is_encrypted())) return;
+  spend(item.event_filter->steps());
+  if (item.event_filter->lets_pass(*record, space_)) item.put(record);
+}
+
+std::shared_ptr<OctetAccount> Services::account_in(Accounts& accounts, const std::string& holder,
+                                                   const std::shared_ptr<OctetAccount>& above) const {
+  std::erase_if(accounts, [](const auto& each) { return each.second.expired(); });
+  std::weak_ptr<OctetAccount>& known = accounts[holder];
+  auto account = known.lock();
+  if (!account) known = account = std::make_shared<OctetAccount>(settings_.limits.user_octets, above);
+  return account;
 }
 
 void Services::news(const ProgramNews& news) {
@@ -136,13 +188,31 @@ void Services::disconnected(ConnectionId connection) {
   for (auto& [token, session] : sessions_) {
     if (session.connection != connection) continue;
     session.connection = 0;
+    session.left = now_.local;
     session.publishes.clear();
   }
   std::erase_if(calls_, [&](const auto& each) { return each.second.connection == connection; });
 }
 
-bool Services::has_session(ConnectionId connection) const {
-  return std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& each) { return each.second.connection == connection; });
+void Services::end_sessions(const std::function<bool(const Session&)>& is_over, Now now) {
+  std::vector<NodeId> tokens;
+  for (const auto& [token, session] : sessions_)
+    if (is_over(session)) tokens.push_back(token);
+  for (const NodeId& token : tokens) end(token, true, StatusCode::BadSessionClosed, now);
+}
+
+const Session* Services::session_on(ConnectionId connection) const {
+  const auto found = std::find_if(sessions_.begin(), sessions_.end(), [&](const auto& each) {
+    return each.second.connection == connection && each.second.is_active;
+  });
+  return found == sessions_.end() ? nullptr : &found->second;
+}
+
+bool Services::has_session(ConnectionId connection) const { return session_on(connection) != nullptr; }
+
+bool Services::is_urgent(ConnectionId connection, const CallRequest& call) const {
+  const auto found = sessions_.find(call.request_header.authentication_token);
+  return found != sessions_.end() && found->second.is_active && found->second.connection == connection && found->second.rank() == 2;
 }
 
 void Services::advance(Now now) {
@@ -160,11 +230,8 @@ void Services::advance(Now now) {
     }
   }
   for (const NodeId& token : ended) end(token, false, StatusCode::BadSessionClosed, now);
-  std::vector<std::uint32_t> due;
-  for (const auto& [id, subscription] : subscriptions_)
-    if (subscription.next_time() <= now.local) due.push_back(id);
-  for (const std::uint32_t id : due)
-    if (const auto found = subscriptions_.find(id); found != subscriptions_.end()) expire(found->second, now);
+  distribute_events();
+  expire_due(now);
   std::vector<std::uint64_t> late;
   for (const auto& [number, call] : calls_)
     if (call.until <= now.local) late.push_back(number);
@@ -174,13 +241,29 @@ void Services::advance(Now now) {
   }
 }
 
+/// Those that have waited longest first, up to the budget of this turn.
+void Services::expire_due(Now now) {
+  std::vector<std::pair<sim::LocalTime, std::uint32_t>> due;
+  for (const auto& [id, subscription] : subscriptions_)
+    if (const sim::LocalTime at = subscription.next_time(settings_.limits.orphan_subscription); at <= now.local)
+      due.emplace_back(at, id);
+  std::sort(due.begin(), due.end());
+  const std::uint64_t until = steps_ + steps_of_turn;
+  for (const auto& [at, id] : due) {
+    if (steps_ >= until) return;
+    if (const auto found = subscriptions_.find(id); found != subscriptions_.end()) expire(found->second, now);
+  }
+}
+
 sim::LocalTime Services::next_time() const {
+  if (!waiting_events_.empty()) return now_.local;
   sim::LocalTime next = sim::LocalTime::never();
   for (const auto& [token, session] : sessions_) {
     next = std::min(next, session.ends);
     for (const QueuedPublish& each : session.publishes) next = std::min(next, each.until);
   }
-  for (const auto& [id, subscription] : subscriptions_) next = std::min(next, subscription.next_time());
+  for (const auto& [id, subscription] : subscriptions_)
+    next = std::min(next, subscription.next_time(settings_.limits.orphan_subscription));
   for (const auto& [number, call] : calls_) next = std::min(next, call.until);
   return next;
 }

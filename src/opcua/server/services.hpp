@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 
 #include "opcua/address_space/program_nodes.hpp"
 #include "opcua/server/outside.hpp"
@@ -58,10 +59,24 @@ class Services {
   void news(const ProgramNews& news);
   void answered(std::uint64_t serial, StatusCode status, Now now);
   void disconnected(ConnectionId connection);
+  /// Those that it holds for, with their subscriptions.
+  void end_sessions(const std::function<bool(const Session&)>& is_over, Now now);
+  /// What is due, and events to whom they are for, up to the budget of a turn; the rest is due at once.
   void advance(Now now);
   sim::LocalTime next_time() const;
+  /// Steps of work since the start, each about 50 ns: what a request or an event costs is known behind it.
+  std::uint64_t steps() const { return steps_; }
+  void spend(std::uint64_t steps) { steps_ += steps; }
   std::size_t sessions() const { return sessions_.size(); }
+  std::size_t subscriptions() const { return subscriptions_.size(); }
+  /// That sessions hold of what they may.
+  std::size_t octets() const { return all_octets_->held(); }
+  /// Somebody has signed in on it.
   bool has_session(ConnectionId connection) const;
+  /// Of the session that has signed in on it; null if none has.
+  const Session* session_on(ConnectionId connection) const;
+  /// A call of one who may call: it comes before everything else.
+  bool is_urgent(ConnectionId connection, const CallRequest& call) const;
   const AddressSpace& space() const { return space_; }
 
   /// Writes a response with its header, or a fault.
@@ -105,13 +120,23 @@ class Services {
   void set_standard(std::uint32_t id, Variant value);
   std::vector<std::byte> random_octets(std::size_t count);
   void tell(const Event& event);
+  void distribute_events();
+  void distribute(const std::shared_ptr<const EventRecord>& record, Subscription& subscription, MonitoredItem& item);
+  void expire_due(Now now);
+  using Accounts = std::map<std::string, std::weak_ptr<OctetAccount>>;
+  std::shared_ptr<OctetAccount> account_in(Accounts& accounts, const std::string& holder, const std::shared_ptr<OctetAccount>& above) const;
+  std::shared_ptr<OctetAccount> holder_account(const std::string& holder) { return account_in(holders_, holder, all_octets_); }
+  /// Who moves plants has room whatever the others take.
+  std::shared_ptr<OctetAccount> buffers_of(const Session& session) { return account_in(buffers_, session.holder(), session.rank() == 2 ? nullptr : all_buffers_); }
   void finish(std::uint64_t call, Now now);
 
   // session_services.cpp
   ApplicationDescription application(const Request& request) const;
   List<EndpointDescription> endpoints(const Request& request) const;
   bool is_offered(const ChannelSecurity& security) const;
-  bool make_room(Now now);
+  std::vector<Place> places(bool active, Now now, std::vector<NodeId>& tokens) const;
+  bool make_room_to_sign_in(const std::string& host, Now now);
+  bool make_room(const Session& newcomer, Now now);
   StatusCode sign_in(const Request& request, Session& session, const ExtensionObject& token);
   StatusCode check_password(const Request& request, const Session& session, const UserNameIdentityToken& token, Text& user, Role& role);
   void note_sign_in(const Request& request, bool is_good);
@@ -121,7 +146,9 @@ class Services {
   BrowseResult browse(Session& session, const BrowseDescription& what, std::size_t most);
   void cut_references(Session& session, BrowseResult& result, std::size_t most);
   ReferenceDescription describe(const Reference& reference, std::uint32_t mask) const;
-  BrowsePathResult translate(const BrowsePath& path) const;
+  BrowsePathResult translate(const BrowsePath& path);
+  /// Of the references of a node, so many that one request looks at; false: no more.
+  bool may_look_at(std::size_t references);
 
   // attribute_services.cpp
   bool may_call(const Session& session, program::Method method) const;
@@ -146,6 +173,9 @@ class Services {
   Subscription* subscription_of(const Request& request, std::uint32_t id);
   void revise(Subscription& subscription, double interval, std::uint32_t lifetime, std::uint32_t keep_alive) const;
   void remove(std::uint32_t subscription);
+  /// Without a session from now on.
+  void orphan(Subscription& subscription, Now now);
+  bool make_room(const Session& session, std::size_t most, Now now);
   bool has_subscriptions(const NodeId& session) const;
   void answer_publishes(Session& session, Now now);
   void refuse_publishes(Session& session, StatusCode why, Now now);
@@ -171,6 +201,16 @@ class Services {
   std::uint32_t last_subscription_ = 0;
   std::uint32_t last_item_ = 0;
   std::uint64_t events_ = 0;
+  std::shared_ptr<OctetAccount> all_octets_;
+  std::shared_ptr<OctetAccount> all_buffers_;
+  Accounts holders_;
+  Accounts buffers_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> event_items_;  ///< subscriptions and their items of events
+  std::deque<std::shared_ptr<const EventRecord>> waiting_events_;
+  std::pair<std::uint32_t, std::uint32_t> told_{};  ///< the last item that has been told of the first of them
+  bool has_lost_events_ = false;                    ///< behind those that wait
+  std::uint64_t steps_ = 0;
+  std::size_t looked_at_ = 0;                               ///< references, by this request
   std::vector<std::byte> process_;                          ///< first half of all EventIds
   Now now_;                                                 ///< of what is happening
 };

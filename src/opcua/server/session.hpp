@@ -4,6 +4,8 @@
 #include <deque>
 #include <map>
 
+#include "opcua/server/budget.hpp"
+#include "opcua/server/places.hpp"
 #include "opcua/server/settings.hpp"
 #include "opcua/services/session.hpp"
 #include "opcua/services/view.hpp"
@@ -18,12 +20,14 @@ struct QueuedPublish {
   std::uint32_t request_handle = 0;
   sim::LocalTime until;              ///< then it is answered with Bad_Timeout
   List<StatusCode> acknowledged;     ///< of what came with it
+  HeldOctets held = {};
 };
 
 /// The rest of a node's references.
 struct ContinuationPoint {
   List<ReferenceDescription> references;
   std::size_t most = 0;
+  HeldOctets held;
 };
 
 struct Session {
@@ -38,6 +42,15 @@ struct Session {
   bool is_active = false;
   Text user;                         ///< empty: anonymous
   Role role = Role::observer;
+  std::string host;                       ///< that it was made from
+  std::shared_ptr<OctetAccount> buffers;  ///< of its requests, responses and continuation points; as above
+  std::shared_ptr<OctetAccount> account;  ///< of what it holds, once it is active
+  sim::LocalTime left;                    ///< since when it has had no connection
+
+  /// Whom what it takes counts for: the user, or the host of who has no name.
+  std::string holder() const { return user.empty() ? host : "user " + user.value; }
+  /// Who moves plants, or gives them keys, comes before who looks, and who has a name before who has none.
+  int rank() const { return user.empty() ? 0 : role == Role::observer ? 1 : 2; }
   sim::Duration timeout;
   sim::LocalTime created;
   sim::LocalTime ends;

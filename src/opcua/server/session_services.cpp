@@ -11,13 +11,11 @@ constexpr std::string_view transport_profile = "http://opcfoundation.org/UA-Prof
 constexpr std::string_view anonymous_policy = "anonymous";
 constexpr std::size_t most_sources = 256;
 constexpr std::size_t session_nonce_octets = 32;
+constexpr std::uint64_t steps_of_password = 1'000'000;  // what makes a hash of it takes 50 ms on purpose
 
 /// With what policy the password is encrypted: the channel's, and where it has none, one all the same.
 const PolicyInfo& password_policy(SecurityPolicy policy) { return info(is_secured(policy) ? policy : SecurityPolicy::Basic256Sha256); }
 std::string user_policy(SecurityPolicy policy) { return "username_" + std::string(password_policy(policy).name); }
-
-/// "127.0.0.1:5000" without the port.
-std::string host_of(const std::string& source) { return source.substr(0, source.rfind(':')); }
 
 }  // namespace
 
@@ -66,15 +64,41 @@ Answer<GetEndpointsResponse> Services::get_endpoints(const Request& request, con
   return response;
 }
 
-/// The oldest that was never activated goes first.
-bool Services::make_room(Now now) {
-  if (sessions_.size() < settings_.limits.sessions) return true;
-  auto oldest = sessions_.end();
-  for (auto at = sessions_.begin(); at != sessions_.end(); ++at)
-    if (!at->second.is_active && (oldest == sessions_.end() || at->second.created < oldest->second.created)) oldest = at;
-  if (oldest == sessions_.end()) return false;
-  end(oldest->first, true, StatusCode::BadSessionClosed, now);
-  return true;
+std::vector<Place> Services::places(bool active, Now now, std::vector<NodeId>& tokens) const {
+  std::vector<Place> places;
+  for (const auto& [token, each] : sessions_) {
+    if (each.is_active != active) continue;
+    const bool is_left = active && each.connection == 0 && each.left + settings_.limits.session_grace <= now.local;
+    places.push_back({each.holder(), active ? each.rank() : 0, each.connection == 0 ? 0 : 1, is_left, each.created});
+    tokens.push_back(token);
+  }
+  return places;
+}
+
+/// Those who have not signed in have the places that are left, half as many as there are at least. Who it will be is
+/// not known here: somebody for whom another would go may come.
+bool Services::make_room_to_sign_in(const std::string& host, Now now) {
+  std::vector<NodeId> tokens;
+  const auto waiting = places(false, now, tokens);
+  std::vector<NodeId> of_active;
+  const auto active = places(true, now, of_active);
+  const Newcomer most = settings_.users.empty() ? Newcomer{host, 0} : Newcomer{"", 2};
+  if (active.size() >= settings_.limits.sessions && !place_to_give(active, most)) return false;
+  const std::size_t left = settings_.limits.sessions - std::min(settings_.limits.sessions, active.size());
+  if (waiting.size() < std::max({left, settings_.limits.sessions / 2, std::size_t{1}})) return true;
+  const auto given = place_to_give(waiting, {host, 1});
+  if (given) end(tokens[*given], true, StatusCode::BadSessionClosed, now);
+  return given.has_value();
+}
+
+/// For one who has signed in. Subscriptions of the one that goes wait for whom they belong to.
+bool Services::make_room(const Session& newcomer, Now now) {
+  std::vector<NodeId> tokens;
+  const auto active = places(true, now, tokens);
+  if (active.size() < settings_.limits.sessions) return true;
+  const auto given = place_to_give(active, {newcomer.holder(), newcomer.rank()});
+  if (given) end(tokens[*given], false, StatusCode::BadSessionClosed, now);
+  return given.has_value();
 }
 
 Answer<CreateSessionResponse> Services::create_session(const Request& request, const CreateSessionRequest& body) {
@@ -86,8 +110,9 @@ Answer<CreateSessionResponse> Services::create_session(const Request& request, c
     if (!certificate || request.certificate == nullptr || !(*certificate == *request.certificate)) return StatusCode::BadSecurityChecksFailed;
     if (certificate->application_uri() != body.client_description.application_uri.value) return StatusCode::BadCertificateUriInvalid;
   }
-  if (!make_room(request.now)) return StatusCode::BadTooManySessions;
+  if (!make_room_to_sign_in(host_of(request.source), request.now)) return StatusCode::BadTooManySessions;
   Session session;
+  session.host = host_of(request.source);
   session.id = NodeId(own_namespace, ++last_session_);
   session.token.name_space = own_namespace;
   session.token.id = Bytes(random_octets(32));
@@ -161,6 +186,12 @@ Answer<ActivateSessionResponse> Services::activate_session(const Request& reques
     session.is_active = was_active;
     return StatusCode::BadIdentityTokenRejected;
   }
+  if (!was_active && !make_room(session, request.now)) return StatusCode::BadTooManySessions;
+  session.buffers = buffers_of(session);
+  if (!session.account)
+    session.account = std::make_shared<OctetAccount>(settings_.limits.session_octets, holder_account(session.holder()));
+  else
+    session.account->move_below(holder_account(session.holder()));
   if (is_moving) session.publishes.clear();  // they came over a channel that this session has left
   session.is_active = true;
   session.connection = request.connection;
@@ -175,6 +206,7 @@ StatusCode Services::sign_in(const Request& request, Session& session, const Ext
     if (settings_.users.empty() || !(named->policy_id == user_policy(request.security.policy))) return StatusCode::BadIdentityTokenInvalid;
     Text user;
     Role role = Role::observer;
+    spend(steps_of_password);
     const StatusCode status = check_password(request, session, *named, user, role);
     note_sign_in(request, is_good(status));
     if (!is_good(status)) return status;
@@ -216,7 +248,7 @@ void Services::note_sign_in(const Request& request, bool is_success) {
   }
   if (sign_ins_.size() >= most_sources && !sign_ins_.contains(host)) sign_ins_.erase(sign_ins_.begin());
   SignIns& of = sign_ins_[host];
-  log_.refused(request.source, "a sign-in");
+  log_.refused(request.source, "a sign-in", "");
   if (++of.failed < settings_.limits.failed_sign_ins) return;
   const std::size_t doublings = std::min<std::size_t>(of.failed - settings_.limits.failed_sign_ins, 6);
   of.refused_until = std::max(of.refused_until, request.now.local + std::min(milliseconds(1000) * static_cast<std::int64_t>(1U << doublings), milliseconds(60'000)));
@@ -239,7 +271,7 @@ void Services::end(const NodeId& token_of, bool deletes_subscriptions, StatusCod
     if (deletes_subscriptions)
       remove(id);
     else
-      subscriptions_.at(id).session = NodeId();  // until its lifetime ends, or somebody takes it over
+      orphan(subscriptions_.at(id), now);  // until somebody takes it over
   }
   sessions_.erase(found);
 }

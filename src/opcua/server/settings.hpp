@@ -36,8 +36,11 @@ struct Limits {
   sim::Duration output_stall = milliseconds(30'000);
   sim::Duration hello_within = milliseconds(10'000);   ///< and then the channel within the same
   sim::Duration idle_channel = milliseconds(60'000);   ///< without a session
-  std::size_t private_key_operations = 100; ///< a second, for all who want to open channels
+  std::size_t private_key_operations =
+      100;  ///< a second, for all who want to open channels; as many for those who renew one with a session
   std::size_t sessions = 50;
+  sim::Duration session_grace =
+      milliseconds(10'000);  ///< a session without a connection keeps its place so long while others want it
   sim::Duration least_session = milliseconds(10'000);
   sim::Duration most_session = milliseconds(3'600'000);
   TokenLifetimes tokens;
@@ -51,6 +54,15 @@ struct Limits {
   std::size_t continuation_points = 10;     ///< of a session
   std::size_t references = 1000;            ///< of a node at once
   std::size_t retransmissions = 20;         ///< kept by a subscription
+  sim::Duration most_subscription = milliseconds(3'600'000);  ///< longest lifetime
+  sim::Duration orphan_subscription = milliseconds(120'000);  ///< of one whose session is gone
+  std::size_t session_octets =
+      4 << 20;  ///< that it may hold: filters, queues, messages that are not acknowledged, requests and responses
+  std::size_t user_octets = 8 << 20;            ///< the same of all sessions of a user, or of a host without a name
+  std::size_t all_octets = 16 << 20;            ///< the same of all
+  std::size_t select_clauses = 1000;            ///< of a filter
+  std::size_t where_operands = 4096;            ///< of a filter
+  std::size_t notification_octets = 256 << 10;  ///< of a message of a subscription, about
   sim::Duration least_publishing = milliseconds(10);
   sim::Duration most_publishing = milliseconds(3'600'000);
   std::size_t failed_sign_ins = 5;          ///< then each further one waits longer

@@ -15,6 +15,18 @@ bool is_beyond(const DataValue& value, const DataValue& last, double deadband) {
   return !a || !b || std::abs(*a - *b) > deadband;
 }
 
+/// A node of a map or a queue, and what an allocator keeps of it.
+constexpr std::size_t allocation_octets = 64;
+
+std::size_t octets_of_message(const NotificationMessage& message) {
+  std::size_t octets = sizeof(NotificationMessage);
+  for (const ExtensionObject& each : message.notification_data)
+    octets += sizeof(ExtensionObject) + each.body.value.size();
+  return octets;
+}
+
+std::size_t octets_of_queued(const QueuedEvent& queued) { return sizeof(QueuedEvent) + queued.event->octets(); }
+
 }  // namespace
 
 DataValue with_times(DataValue value, TimestampsToReturn times, DateTime now, bool is_value) {
@@ -44,67 +56,98 @@ void MonitoredItem::put(DataValue value) {
   }
   if (!is_change(value)) return;
   last_ = value;
-  if (values_.size() < queue_size) {
-    values_.push_back(std::move(value));
-    return;
+  const std::size_t octets = octets_of(value);
+  bool is_lost = values_.size() >= queue_size;
+  if (is_lost) drop_value(discard_oldest || queue_size == 1);
+  while (!held_.add(octets)) {
+    if (values_.empty()) return;  // the newest one is read
+    drop_value(discard_oldest);
+    is_lost = true;
   }
-  // A queue of one holds the newest; that it does is no overflow.
-  if (discard_oldest || queue_size == 1) values_.pop_front();
-  else values_.pop_back();
   values_.push_back(std::move(value));
-  if (queue_size == 1) return;
+  // A queue of one holds the newest; that it does is no overflow.
+  if (!is_lost || queue_size == 1) return;
   DataValue& marked = discard_oldest ? values_.front() : values_.back();
   marked.status = static_cast<StatusCode>(code_of(marked.result()) | code_of(StatusCode::GoodOverflow));
 }
 
-void MonitoredItem::put(EventFieldList fields) {
+void MonitoredItem::drop_value(bool oldest) {
+  held_.remove(octets_of(oldest ? values_.front() : values_.back()));
+  values_.erase(oldest ? values_.begin() : values_.end() - 1);
+}
+
+void MonitoredItem::drop_event(bool oldest) {
+  held_.remove(octets_of_queued(oldest ? events_.front() : events_.back()));
+  events_.erase(oldest ? events_.begin() : events_.end() - 1);
+}
+
+bool MonitoredItem::hold() {
+  const std::size_t before = own_octets_;
+  own_octets_ = sizeof(MonitoredItem) + allocation_octets + what.index_range.value.size() +
+                octets_of(Variant(what.node_id)) + (event_filter ? event_filter->octets() : 0);
+  if (held_.set(held_.octets() - before + own_octets_)) return true;
+  own_octets_ = before;
+  return false;
+}
+
+/// Each one counts the whole event, though all share it: who keeps one alive may be the last.
+void MonitoredItem::put(std::shared_ptr<const EventRecord> event) {
   if (mode == MonitoringMode::Disabled) return;
-  if (events_.size() >= queue_size) {
+  QueuedEvent queued{std::move(event), event_filter};
+  const std::size_t octets = octets_of_queued(queued);
+  while (events_.size() >= queue_size || !held_.add(octets)) {
     has_overflowed_ = true;
-    if (!discard_oldest) return;
-    events_.pop_front();
+    if (!discard_oldest || events_.empty()) return;
+    drop_event(true);
   }
-  events_.push_back(std::move(fields));
+  events_.push_back(std::move(queued));
 }
 
 void MonitoredItem::forget() {
-  values_.clear();
-  events_.clear();
+  while (!values_.empty()) drop_value(true);
+  while (!events_.empty()) drop_event(true);
   last_.reset();
   has_overflowed_ = false;
 }
 
 void MonitoredItem::shorten() {
-  while (values_.size() > queue_size) discard_oldest ? values_.pop_front() : values_.pop_back();
-  while (events_.size() > queue_size) discard_oldest ? events_.pop_front() : events_.pop_back();
+  while (values_.size() > queue_size) drop_value(discard_oldest);
+  while (events_.size() > queue_size) drop_event(discard_oldest);
 }
 
-std::size_t MonitoredItem::take_values(List<MonitoredItemNotification>& into, std::size_t most) {
+std::size_t MonitoredItem::take_values(List<MonitoredItemNotification>& into, std::size_t most, std::size_t& octets) {
   std::size_t taken = 0;
-  for (; taken < most && !values_.empty(); ++taken) {
-    into.push_back({client_handle, std::move(values_.front())});
-    values_.pop_front();
+  for (; taken < most && octets > 0 && taken < values_.size(); ++taken) {
+    const std::size_t of_this = octets_of(values_[taken]);
+    held_.remove(of_this);
+    octets -= std::min(octets, of_this);
+    into.push_back({client_handle, std::move(values_[taken])});
   }
+  values_.erase(values_.begin(), values_.begin() + static_cast<std::ptrdiff_t>(taken));
   return taken;
 }
 
-std::size_t MonitoredItem::take_events(List<EventFieldList>& into, std::size_t most) {
+std::size_t MonitoredItem::take_events(List<EventFieldList>& into, std::size_t most, std::size_t& octets) {
   std::size_t taken = 0;
-  for (; taken < most && !events_.empty(); ++taken) {
-    into.push_back(std::move(events_.front()));
-    events_.pop_front();
+  const auto tell = [&](const DecodedFilter& filter, const EventRecord& event) {
+    into.push_back({client_handle, filter.selected_fields(event)});
+    for (const Variant& each : into.back().event_fields) octets -= std::min(octets, octets_of(each));
+    ++taken;
+  };
+  while (taken < most && octets > 0 && !events_.empty()) {
+    tell(*events_.front().filter, *events_.front().event);
+    drop_event(true);
   }
-  if (events_.empty() && has_overflowed_ && taken < most) {
+  if (events_.empty() && has_overflowed_ && taken < most && octets > 0) {
     Event overflow;
     overflow.type = NodeId(ids::event_queue_overflow_event_type);
     overflow.fields["EventType"] = Variant(overflow.type);
     overflow.fields["SourceNode"] = Variant(NodeId(ids::server));
     overflow.fields["SourceName"] = Variant(Text("Server"));
-    overflow.fields["Message"] = Variant(LocalizedText("events were lost: the queue of this item is too short"));
+    overflow.fields["Message"] = Variant(LocalizedText("events were lost: there was no room for them"));
     overflow.fields["Severity"] = Variant(std::uint16_t{500});
-    into.push_back({client_handle, selected_fields(*event_filter, overflow)});
+    tell(*event_filter, EventRecord(std::move(overflow), 0));
     has_overflowed_ = false;
-    ++taken;
   }
   return taken;
 }
@@ -124,7 +167,7 @@ Subscription::Expiry Subscription::expire(sim::LocalTime now, bool has_request) 
   return is_waiting_ ? Expiry::send : Expiry::nothing;
 }
 
-NotificationMessage Subscription::take_message(DateTime now, std::size_t kept, bool& more) {
+NotificationMessage Subscription::take_message(DateTime now, std::size_t kept, std::size_t most_octets, bool& more) {
   NotificationMessage message;
   message.sequence_number = next_sequence_number_;
   message.publish_time = now;
@@ -132,10 +175,12 @@ NotificationMessage Subscription::take_message(DateTime now, std::size_t kept, b
   DataChangeNotification values;
   EventNotificationList events;
   std::size_t taken = 0;
+  std::size_t octets = most_octets;
   for (auto& [number, item] : items) {
     if (!is_enabled || !item.has_news()) continue;
-    taken += item.take_values(values.monitored_items, most - taken);
-    taken += item.take_events(events.events, most - taken);
+    if (octets == 0) break;
+    taken += item.take_values(values.monitored_items, most - taken, octets);
+    taken += item.take_events(events.events, most - taken, octets);
   }
   if (!values.monitored_items.empty()) message.notification_data.push_back(extension_of(values));
   if (!events.events.empty()) message.notification_data.push_back(extension_of(events));
@@ -145,9 +190,19 @@ NotificationMessage Subscription::take_message(DateTime now, std::size_t kept, b
   expiries_without_news_ = 0;
   if (message.notification_data.empty()) return message;
   next_sequence_number_ = next_sequence_number_ == 0xFFFF'FFFFU ? 1 : next_sequence_number_ + 1;
+  // What there is no room for cannot be sent again; the oldest goes first.
+  while (!sent_.empty() && sent_.size() >= kept) drop_sent(sent_.begin());
+  while (!sent_octets_.add(octets_of_message(message))) {
+    if (sent_.empty()) return message;
+    drop_sent(sent_.begin());
+  }
   sent_.push_back(message);
-  if (sent_.size() > kept) sent_.pop_front();
   return message;
+}
+
+void Subscription::drop_sent(std::deque<NotificationMessage>::iterator message) {
+  sent_octets_.remove(octets_of_message(*message));
+  sent_.erase(message);
 }
 
 List<std::uint32_t> Subscription::available() const {
@@ -159,7 +214,7 @@ List<std::uint32_t> Subscription::available() const {
 StatusCode Subscription::acknowledge(std::uint32_t sequence_number) {
   const auto found = std::find_if(sent_.begin(), sent_.end(), [&](const auto& each) { return each.sequence_number == sequence_number; });
   if (found == sent_.end()) return StatusCode::BadSequenceNumberUnknown;
-  sent_.erase(found);
+  drop_sent(found);
   return StatusCode::Good;
 }
 

@@ -10,22 +10,33 @@ Subscription* Services::subscription_of(const Request& request, std::uint32_t id
   return found == subscriptions_.end() || found->second.session != request.session->token ? nullptr : &found->second;
 }
 
-/// What is not possible is made possible, not refused; a subscription lives for three keep-alives at least.
+/// What is not possible is made possible, not refused; a subscription lives for three keep-alives at least, and for as
+/// long as the limits say at most.
 void Services::revise(Subscription& subscription, double interval, std::uint32_t lifetime, std::uint32_t keep_alive) const {
-  const double most_ms = static_cast<double>(settings_.limits.most_publishing.ps()) / 1e9;
+  const sim::Duration longest = std::max(
+      std::min(settings_.limits.most_publishing, sim::Duration::from_ps(settings_.limits.most_subscription.ps() / 3)),
+      settings_.limits.least_publishing);
+  const double most_ms = static_cast<double>(longest.ps()) / 1e9;
   const double asked = interval > 0 ? std::min(interval, most_ms) : 0;  // a NaN is no interval
-  subscription.interval = std::clamp(sim::Duration::from_ps(static_cast<std::int64_t>(asked * 1e9)), settings_.limits.least_publishing, settings_.limits.most_publishing);
-  subscription.keep_alive = std::clamp<std::uint32_t>(keep_alive == 0 ? 10 : keep_alive, 1, 1'000'000);
-  subscription.lifetime = std::clamp<std::uint32_t>(lifetime, 3 * subscription.keep_alive, 10'000'000);
+  subscription.interval = std::clamp(sim::Duration::from_ps(static_cast<std::int64_t>(asked * 1e9)),
+                                     settings_.limits.least_publishing, longest);
+  const auto most = static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(settings_.limits.most_subscription.ps() / subscription.interval.ps(), 3, 3'000'000));
+  subscription.keep_alive = std::clamp<std::uint32_t>(keep_alive == 0 ? 10 : keep_alive, 1, most / 3);
+  subscription.lifetime = std::clamp<std::uint32_t>(lifetime, 3 * subscription.keep_alive, most);
 }
 
 Answer<CreateSubscriptionResponse> Services::create_subscription(const Request& request, const CreateSubscriptionRequest& body) {
   const Session& session = *request.session;
   const auto own = std::count_if(subscriptions_.begin(), subscriptions_.end(), [&](const auto& each) { return each.second.session == session.token; });
-  if (subscriptions_.size() >= settings_.limits.subscriptions || static_cast<std::size_t>(own) >= settings_.limits.subscriptions_of_session)
+  if (static_cast<std::size_t>(own) >= settings_.limits.subscriptions_of_session ||
+      !make_room(session, settings_.limits.subscriptions, request.now))
     return StatusCode::BadTooManySubscriptions;
-  Subscription made;
+  Subscription made(session.account);
   made.id = ++last_subscription_;
+  made.rank = session.rank();
+  made.holder = session.holder();
+  made.made = request.now.local;
   made.session = session.token;
   made.user = session.user;
   made.most_notifications = body.max_notifications_per_publish;
@@ -65,6 +76,33 @@ Answer<SetPublishingModeResponse> Services::set_publishing_mode(const Request& r
     response.results.push_back(subscription == nullptr ? StatusCode::BadSubscriptionIdInvalid : StatusCode::Good);
   }
   return response;
+}
+
+/// Those without a session first.
+bool Services::make_room(const Session& newcomer, std::size_t most, Now now) {
+  if (subscriptions_.size() < most) return true;
+  std::vector<Place> places;
+  std::vector<std::uint32_t> numbers;
+  for (const auto& [id, each] : subscriptions_) {
+    const bool is_orphan = each.session.is_null();
+    places.push_back({each.holder, each.rank, is_orphan ? 0 : 1,
+                      is_orphan && each.left + settings_.limits.session_grace <= now.local, each.made});
+    numbers.push_back(id);
+  }
+  const auto given = place_to_give(places, {newcomer.holder(), newcomer.rank()});
+  if (!given) return false;
+  const auto session = sessions_.find(subscriptions_.at(numbers[*given]).session);
+  remove(numbers[*given]);
+  if (session != sessions_.end() && !has_subscriptions(session->first))
+    refuse_publishes(session->second, StatusCode::BadNoSubscription, now);
+  return true;
+}
+
+/// What it holds counts for its user then, or for the host of who has no name.
+void Services::orphan(Subscription& subscription, Now now) {
+  subscription.session = NodeId();
+  subscription.left = now.local;
+  subscription.account->move_below(holder_account(subscription.holder));
 }
 
 void Services::remove(std::uint32_t id) {
@@ -111,10 +149,14 @@ Answer<TransferSubscriptionsResponse> Services::transfer(const Request& request,
       Subscription& subscription = found->second;
       const auto former = sessions_.find(subscription.session);
       subscription.session = session.token;
+      subscription.holder = session.holder();
+      subscription.rank = session.rank();
+      subscription.account->move_below(session.account);
       subscription.touch();
       if (former != sessions_.end() && former->first != session.token && !has_subscriptions(former->first))
         refuse_publishes(former->second, StatusCode::GoodSubscriptionTransferred, request.now);
       result.available_sequence_numbers = subscription.available();
+      spend(subscription.items.size());
       for (auto& [number, item] : subscription.items) {
         if (!body.send_initial_values || item.is_of_events()) continue;
         item.forget();
@@ -152,6 +194,9 @@ void Services::publish(const Request& request, const PublishRequest& body) {
   if (request.header.timeout_hint != 0) queued.until = request.now.local + milliseconds(std::min(request.header.timeout_hint, longest_ms));
   for (auto& [id, subscription] : subscriptions_)
     if (subscription.session == session.token) subscription.touch();
+  queued.held = HeldOctets(session.buffers);
+  if (!queued.held.set(sizeof(QueuedPublish) + queued.acknowledged.size() * sizeof(StatusCode)))
+    return refused(StatusCode::BadTooManyPublishRequests);
   session.publishes.push_back(std::move(queued));
   if (session.publishes.size() > settings_.limits.publish_requests) {
     const QueuedPublish oldest = std::move(session.publishes.front());
@@ -171,12 +216,14 @@ void Services::answer_publishes(Session& session, Now now) {
       if (next == nullptr || subscription.priority > next->priority || (subscription.priority == next->priority && is_behind_last)) next = &subscription;
     }
     if (next == nullptr) return;
+    spend(100);
     QueuedPublish request = std::move(session.publishes.front());
     session.publishes.pop_front();
     session.last_published = next->id;
     PublishResponse response;
     response.subscription_id = next->id;
-    response.notification_message = next->take_message(now.utc, settings_.limits.retransmissions, response.more_notifications);
+    response.notification_message = next->take_message(
+        now.utc, settings_.limits.retransmissions, settings_.limits.notification_octets, response.more_notifications);
     response.available_sequence_numbers = next->available();
     response.results = std::move(request.acknowledged);
     respond(session.connection, request.request_id, request.request_handle, std::move(response), now);
@@ -185,6 +232,9 @@ void Services::answer_publishes(Session& session, Now now) {
 
 void Services::expire(Subscription& subscription, Now now) {
   const auto session = sessions_.find(subscription.session);
+  if (subscription.session.is_null() && subscription.left + settings_.limits.orphan_subscription <= now.local)
+    return remove(subscription.id);
+  spend(10 + 4 * subscription.items.size());
   for (auto& [id, item] : subscription.items) {
     const Node* const node = space_.find(item.what.node_id);
     if (node->computed && item.attribute() == AttributeId::Value) put_current(subscription, item, now);

@@ -6,6 +6,8 @@
 namespace takt::opcua {
 namespace {
 
+constexpr std::size_t most_references_of_request = 50'000;
+
 namespace result_mask {
 constexpr std::uint32_t reference_type = 1, is_forward = 2, node_class = 4, browse_name = 8, display_name = 16, type_definition = 32;
 }
@@ -37,6 +39,13 @@ ReferenceDescription Services::describe(const Reference& reference, std::uint32_
   return made;
 }
 
+/// More than the longest response has; a request that wants more is to be several.
+bool Services::may_look_at(std::size_t references) {
+  looked_at_ += references + 1;
+  spend(5 * (references + 1));
+  return looked_at_ <= most_references_of_request;
+}
+
 BrowseResult Services::browse(Session& session, const BrowseDescription& what, std::size_t most) {
   BrowseResult result;
   const Node* const node = space_.find(what.node_id);
@@ -48,6 +57,10 @@ BrowseResult Services::browse(Session& session, const BrowseDescription& what, s
     result.status_code = StatusCode::BadReferenceTypeIdInvalid;
   if (!is_good(result.status_code)) return result;
   result.references.is_empty_not_null = true;
+  if (!may_look_at(node->references.size())) {
+    result.status_code = StatusCode::BadResourceUnavailable;
+    return result;
+  }
   for (const Reference& each : node->references) {
     if (what.browse_direction != BrowseDirection::Both && each.is_forward != (what.browse_direction == BrowseDirection::Forward)) continue;
     if (!is_wanted(space_, each, what.reference_type_id, what.include_subtypes)) continue;
@@ -69,6 +82,12 @@ void Services::cut_references(Session& session, BrowseResult& result, std::size_
   }
   ContinuationPoint point;
   point.most = most;
+  point.held = HeldOctets(session.buffers);
+  if (!point.held.set((result.references.size() - most) * sizeof(ReferenceDescription) * 2)) {
+    result = BrowseResult();
+    result.status_code = StatusCode::BadNoContinuationPoints;
+    return;
+  }
   const auto behind = result.references.begin() + static_cast<std::ptrdiff_t>(most);
   point.references.assign(behind, result.references.end());
   result.references.erase(behind, result.references.end());
@@ -83,6 +102,7 @@ Answer<BrowseResponse> Services::browse(const Request& request, const BrowseRequ
   const std::size_t limit = settings_.limits.references;
   const std::size_t most = body.requested_max_references_per_node == 0 ? limit : std::min<std::size_t>(limit, body.requested_max_references_per_node);
   BrowseResponse response;
+  looked_at_ = 0;
   for (const BrowseDescription& each : body.nodes_to_browse) response.results.push_back(browse(*request.session, each, most));
   return response;
 }
@@ -105,7 +125,7 @@ Answer<BrowseNextResponse> Services::browse_next(const Request& request, const B
   return response;
 }
 
-BrowsePathResult Services::translate(const BrowsePath& path) const {
+BrowsePathResult Services::translate(const BrowsePath& path) {
   BrowsePathResult result;
   const auto failed = [&](StatusCode status) {
     result.status_code = status;
@@ -119,6 +139,7 @@ BrowsePathResult Services::translate(const BrowsePath& path) const {
     if (!is_reference_type(space_, element.reference_type_id)) return failed(StatusCode::BadReferenceTypeIdInvalid);
     std::vector<const Node*> next;
     for (const Node* const node : at) {
+      if (!may_look_at(node->references.size())) return failed(StatusCode::BadResourceUnavailable);
       for (const Reference& each : node->references) {
         if (each.is_forward == element.is_inverse || !is_wanted(space_, each, element.reference_type_id, element.include_subtypes)) continue;
         const Node* const target = space_.find(each.target);
@@ -136,6 +157,7 @@ Answer<TranslateBrowsePathsToNodeIdsResponse> Services::translate(const Request&
   if (body.browse_paths.empty()) return StatusCode::BadNothingToDo;
   if (body.browse_paths.size() > settings_.limits.operations) return StatusCode::BadTooManyOperations;
   TranslateBrowsePathsToNodeIdsResponse response;
+  looked_at_ = 0;
   for (const BrowsePath& each : body.browse_paths) response.results.push_back(translate(each));
   return response;
 }

@@ -204,7 +204,7 @@ class ServerTest(unittest.TestCase):
         cases = {
             "no OPC UA": (b"GET / HTTP/1.1\r\n\r\n", 0x807E0000),
             "a second hello": (hello() + hello(), 0x807E0000),
-            "a message before a channel": (hello() + b"MSGF" + struct.pack("<IIIII", 24, 1, 1, 1, 1), 0x807E0000),
+            "a message before a channel": (hello() + b"MSGF" + struct.pack("<IIIII", 24, 1, 1, 1, 1), 0x807F0000),
             "larger than the buffer, in one piece with a good hello": (hello() + b"OPNF" + struct.pack("<I", 0x7FFFFFFF) + bytes(4096), 0x80800000),
             "small buffers": (hello(1024), 0x80810000),
             "shorter than its header": (b"HELF" + struct.pack("<I", 4), 0x807E0000),
@@ -255,7 +255,7 @@ class ServerTest(unittest.TestCase):
         path.write_text(json.dumps(config), encoding="utf-8")
         done = subprocess.run([TAKT, "node", "--check", str(path)], capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("others may read", done.stderr)
+        self.assertIn("others than its owner may read", done.stderr)
 
 
 if __name__ == "__main__":

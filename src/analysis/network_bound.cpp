@@ -263,26 +263,17 @@ class FixedPoint {
            (hop.worst_left < sum(hop.worst, hop.delay) || hop.best_left > sum(hop.best, hop.least_delay));
   }
 
-  /// Whether none of its frames is doubled on the way to the hop. What becomes of them behind it does not matter.
-  bool comes_once(std::uint32_t h, const Flow& flow, Ps own_jitter) const {
-    std::vector<std::uint32_t> before{h};
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      const Hop& each = graph_.hops[before[i]];
-      if (graph_.ports[each.port].may_double) return false;
-      const HopResult& known = result_.hops[before[i]];
-      const Ps jitter = i == 0 ? own_jitter : is_bounded(known.worst) ? known.worst - known.best : unbounded_ps;
-      if (each.parents.size() > 1 && !passes_once(flow, jitter)) return false;
-      for (const std::uint32_t parent : each.parents)
-        if (std::find(before.begin(), before.end(), parent) == before.end()) before.push_back(parent);
-    }
-    return true;
-  }
-
   /// When the frames of a flow come to a hop, if that is known. A flow whose frames are doubled has no such times.
   std::optional<ArrivalPhase> phase_of(std::uint32_t h, Ps best, Ps worst) const {
     const Hop& hop = graph_.hops[h];
     const Flow& flow = graph_.flows[hop.flow];
-    if (!flow.produced || !is_bounded(worst) || !comes_once(h, flow, worst - best)) return std::nullopt;
+    if (!flow.produced || !is_bounded(worst)) return std::nullopt;
+    for (const std::uint32_t each : flow.hops) {
+      if (graph_.ports[graph_.hops[each].port].may_double) return std::nullopt;
+      const HopResult& known = result_.hops[each];
+      const Ps jitter = is_bounded(known.worst) ? known.worst - known.best : unbounded_ps;
+      if (graph_.hops[each].parents.size() > 1 && !passes_once(flow, jitter)) return std::nullopt;
+    }
     // Clocks may drift a little on the way.
     const std::int64_t rate_ppt = std::max(graph_.models[hop.port].clock.rate_ppt, flow.produced->rate_ppt);
     const Ps drift = scaled_up(worst, rate_ppt, one_ppt);

@@ -55,6 +55,8 @@ class InstanceMaker {
         crossings_(gated.problem, scenario::Waiting::at_gates) {
     auto [network, link_at] = network_of(resolved);
     made_.problem = std::move(network);
+    made_.cuts_through = std::ranges::any_of(resolved.plan.port_configs,
+                                             [](const models::PortConfig& config) { return config.cut_through != 0; });
     link_at_ = std::move(link_at);
     Problem& problem = made_.problem;
     problem.name = wanted.name;

@@ -25,6 +25,7 @@ struct ScenarioInstance {
   /// By stream of the problem: its entry in Scenario::streams; nothing: it is of a Program, or a link that others keep.
   std::vector<std::optional<std::size_t>> streams;
   std::vector<schedule::Ps> lags;  ///< by stream: from its offset to its start at the talker
+  bool cuts_through = false;       ///< some node may; the instance counts store and forward, so it proves nothing
   std::vector<bool> is_given;      ///< by stream: the scenario asks for no less; else it could be elsewhere
 };
 

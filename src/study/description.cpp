@@ -255,7 +255,7 @@ const json::Object& describe(json::Type<Study>) {
   static constexpr json::Field fields[] = {
       optional<&Study::schema>("$schema", "The JSON Schema, for editors."),
       required<&Study::name>("name", "The name of the study.", {.min_length = 1, .max_length = 200}),
-      json::prose(optional<&Study::description>("description", "What it asks.")),
+      json::optional_prose<&Study::description>("description", "What it asks."),
       optional<&Study::base>("base", "The scenario file that is varied, beside the study."),
       optional<&Study::scenario>("scenario", "The scenario that is varied, in place of a file."),
       optional<&Study::schedule>("schedule",

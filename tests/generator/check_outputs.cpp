@@ -212,7 +212,8 @@ class Outputs {
         expect_output(interchange::parse_xml(file.content, name, diagnostics).has_value(), diagnostics.to_text());
       if (file.name.ends_with(".csv")) rows_of(file.content, name);
       if (!file.name.ends_with(".sh")) continue;
-      static_cast<void>(interchange::linux_tc::commands_of(file.content, name, diagnostics));
+      std::vector<interchange::Remark> remarks;
+      static_cast<void>(interchange::linux_tc::commands_of(file.content, name, remarks, diagnostics));
       expect_output(!diagnostics.has_errors(), diagnostics.to_text());
     }
   }

@@ -192,7 +192,7 @@ const json::Object& describe(json::Type<Scenario>) {
   static constexpr json::Field fields[] = {
       optional<&Scenario::schema>("$schema", "The JSON Schema, for editors."),
       required<&Scenario::name>("name", "The name of the scenario.", {.min_length = 1, .max_length = 200}),
-      json::prose(optional<&Scenario::description>("description", "What it shows.")),
+      json::optional_prose<&Scenario::description>("description", "What it shows."),
       optional<&Scenario::seed>("seed", "The seed of all chance."),
       required<&Scenario::duration>("duration", "How long is simulated.", {.min = 1_ns, .max = longest}),
       optional<&Scenario::warm_up>("warm_up", "Requirements and figures count what begins at this instant or later; of a requirement with its own after, from that.", {.max = longest}),

@@ -214,8 +214,7 @@ class Searcher {
       better = false;
       std::vector<MeetingLog::Visit> met;
       if (is_of_frames) met = trials_.meetings_of(at).value_or(std::vector<MeetingLog::Visit>());
-      const std::uint64_t of_each = std::max(
-          fewest_values, trials_.affordable_runs() / (rounds_of_a_climb * std::max<std::size_t>(1, free.size())));
+      const std::uint64_t of_each = std::max(fewest_values, trials_.affordable_runs() / (rounds_of_a_climb * std::max<std::size_t>(1, free.size())));
       for (const std::size_t f : free) {
         if (!trials_.is_affordable()) break;
         std::vector<Choice> steps;

@@ -211,13 +211,11 @@ std::vector<std::size_t> CriticalInstants::variables_for(const results::Requirem
   return found;
 }
 
-std::vector<Duration> CriticalInstants::of_meetings(std::size_t f, const Choice& choice,
-                                                    std::span<const MeetingLog::Visit> met) const {
+std::vector<Duration> CriticalInstants::of_meetings(std::size_t f, const Choice& choice, std::span<const MeetingLog::Visit> met) const {
   return meetings_in({}, f, choice, met);
 }
 
-CriticalInstants::Window CriticalInstants::around_slowest(std::uint32_t stream,
-                                                          std::span<const MeetingLog::Visit> met) {
+CriticalInstants::Window CriticalInstants::around_slowest(std::uint32_t stream, std::span<const MeetingLog::Visit> met) {
   Window window;
   Duration longest = Duration::from_ps(-1);
   for (const MeetingLog::Visit& visit : met)
@@ -228,8 +226,7 @@ CriticalInstants::Window CriticalInstants::around_slowest(std::uint32_t stream,
   return window;
 }
 
-std::vector<Duration> CriticalInstants::meetings_in(const Window& window, std::size_t f, const Choice& choice,
-                                                    std::span<const MeetingLog::Visit> met) const {
+std::vector<Duration> CriticalInstants::meetings_in(const Window& window, std::size_t f, const Choice& choice, std::span<const MeetingLog::Visit> met) const {
   const FreeVariable& variable = variables_[f];
   std::vector<Duration> values;
   if (variable.kind != FreeVariable::Kind::talker && variable.kind != FreeVariable::Kind::publisher) return values;
@@ -238,9 +235,7 @@ std::vector<Duration> CriticalInstants::meetings_in(const Window& window, std::s
     for (const MeetingLog::Visit& visit : met)
       if (visit.stream == moved) delays[visit.port].insert(visit.came - visit.produced);
     for (const MeetingLog::Visit& visit : met) {
-      if (visit.stream == moved || (window.stream && visit.stream != *window.stream) ||
-          (window.produced && visit.produced != *window.produced))
-        continue;
+      if (visit.stream == moved || (window.stream && visit.stream != *window.stream) || (window.produced && visit.produced != *window.produced)) continue;
       const auto here = delays.find(visit.port);
       if (here == delays.end()) continue;
       for (const sim::TrueTime instant : {visit.came, visit.started}) {
@@ -256,9 +251,7 @@ std::vector<Duration> CriticalInstants::meetings_in(const Window& window, std::s
   return values;
 }
 
-std::vector<Duration> CriticalInstants::of(std::size_t f, const results::RequirementResult& requirement,
-                                           const Choice& choice, std::span<const MeetingLog::Visit> met,
-                                           std::size_t most) const {
+std::vector<Duration> CriticalInstants::of(std::size_t f, const results::RequirementResult& requirement, const Choice& choice, std::span<const MeetingLog::Visit> met, std::size_t most) const {
   const FreeVariable& variable = variables_[f];
   std::vector<Duration> values{choice.values[f]};
   const auto add = [&](Duration value) { values.push_back(modulo(value, variable.range)); };
@@ -285,8 +278,7 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
   Window slowest;
   const auto add_meetings = [&] {
     const std::vector<Duration> meetings = meetings_in(slowest, f, choice, met);
-    values.insert(values.end(), meetings.begin(),
-                  meetings.begin() + static_cast<std::ptrdiff_t>(std::min(meetings.size(), most_values)));
+    values.insert(values.end(), meetings.begin(), meetings.begin() + static_cast<std::ptrdiff_t>(std::min(meetings.size(), most_values)));
   };
   const auto add_meetings_of_others = [&] {
     slowest.stream.reset();

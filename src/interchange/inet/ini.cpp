@@ -62,7 +62,7 @@ class ValueParser {
       if (take('}')) return object;
       do {
         skip();
-        const std::string key = word();
+        const std::string key = at_ < text_.size() && text_[at_] == '"' ? quoted().value_or("") : word();
         if (key.empty() || !take(':') || object.find(key) != nullptr) return std::nullopt;
         auto value = parse(depth + 1);
         if (!value) return std::nullopt;
@@ -71,14 +71,8 @@ class ValueParser {
       return take('}') ? std::optional(std::move(object)) : std::nullopt;
     }
     if (text_[at_] == '"') {
-      std::string text;
-      for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_) {
-        if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
-        text += text_[at_];
-      }
-      if (at_ >= text_.size()) return std::nullopt;
-      ++at_;
-      return json::Node::of_string(text);
+      const auto text = quoted();
+      return text ? std::optional(json::Node::of_string(*text)) : std::nullopt;
     }
     // Words, numbers with units, expressions: up to what ends them, with whole brackets.
     std::string raw;
@@ -93,6 +87,18 @@ class ValueParser {
     }
     raw = trimmed(raw);
     return raw.empty() ? std::nullopt : std::optional(json::Node::of_literal(raw));
+  }
+
+  /// From one quote to the next.
+  std::optional<std::string> quoted() {
+    std::string text;
+    for (++at_; at_ < text_.size() && text_[at_] != '"'; ++at_) {
+      if (text_[at_] == '\\' && at_ + 1 < text_.size()) ++at_;
+      text += text_[at_];
+    }
+    if (at_ >= text_.size()) return std::nullopt;
+    ++at_;
+    return text;
   }
 
   std::string word() {

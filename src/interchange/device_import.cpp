@@ -256,6 +256,7 @@ class DeviceBuilder {
       }
       Egress egress = port->egress;
       egress.to = peer;
+      keep_tags_before_a_switch(*port, peer, egress);
       if (const Egress* const before = entry_for(ports, peer);
           before != nullptr) {  // what no format of devices can say stays
         egress.cut_through = before->cut_through;
@@ -266,6 +267,20 @@ class DeviceBuilder {
     }
     // One interface of a host: no need to say which.
     if (!device.forwards && device.ports.size() == 1 && ports.egress.size() == 1) ports.egress.front().to.reset();
+  }
+
+  /// A bridge takes the tag of VLAN 1 off frames that came without one: between switches takt's frames stay as they are.
+  void keep_tags_before_a_switch(const ImportedPort& port, const std::string& peer, Egress& egress) {
+    const auto neighbour = std::ranges::find(scenario_.network.nodes, peer,
+                                             [](const auto& each) -> const std::string& { return each.first; });
+    if (!egress.untagged || neighbour == scenario_.network.nodes.end() ||
+        scenario::relay_of(neighbour->second) == nullptr)
+      return;
+    egress.untagged = false;
+    if (std::ranges::any_of(scenario_.streams, [](const scenario::Stream& stream) { return stream.pcp.has_value(); }))
+      imported_.remark(RemarkKind::lost, port.place,
+                       "tags taken off before " + json::quote(peer) +
+                           ", which forgets the priorities there: in takt they stay between switches");
   }
 
   void set_rest(scenario::Node& node, const ImportedDevice& device,

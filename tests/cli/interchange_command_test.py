@@ -40,7 +40,7 @@ class Interchange(unittest.TestCase):
     def test_out_and_in_again_is_the_same_run(self):
         scenario = SCENARIOS / "clocks" / "gates-with-gptp.json"
         status, _, error = takt("export", "linux", scenario, "--out", self.out / "scripts")
-        self.assertEqual((status, error), (0, ""))
+        self.assertEqual(status, 0, error)
         files = sorted((self.out / "scripts").iterdir())
         status, _, error = takt("import", "linux", *files, "--into", scenario, "-o", "never-open=accept", "--out", self.out / "again.json")
         self.assertEqual(status, 0, error)
@@ -98,11 +98,11 @@ class Interchange(unittest.TestCase):
 
     def test_mistakes_have_places_and_nothing_is_written(self):
         wrong = self.out / "sw1.sh"
-        wrong.write_text("tc qdisc replace dev swp0 root taprio num_tc 99\nls\n")
+        wrong.write_text("tc qdisc replace dev swp0 root taprio num_tc 99\ntc qdisc replace swp0 root\n")
         status, page, error = takt("import", "linux", wrong, "--out", self.out / "x.json")
         self.assertEqual((status, page), (2, ""))
         self.assertIn("sw1.sh:1:46: error", error)
-        self.assertIn("sw1.sh:2:1: error", error)
+        self.assertIn("sw1.sh:2:18: error", error)
         self.assertFalse((self.out / "x.json").exists())
 
     def test_pubsub_configurations_say_what_is_on_the_wire(self):

@@ -88,14 +88,14 @@ class ScriptWriter {
   void write_default_vlan(const DevicePort& port) {
     bool has_tagged = false, has_untagged = false;
     for (const models::FilteringPlan& entry : r_.plan.filtering) {
-      if (entry.node.value != device_.node || entry.vlan != 0) continue;
+      if (entry.node.value != device_.node || entry.vlan != 0 || entry.port != port.port) continue;
       for (const models::StreamPlan& stream : r_.plan.streams) {
         if (stream.vlan != 0 || stream.destination != entry.address) continue;
         has_tagged = has_tagged || stream.priority;
-        has_untagged = has_untagged || (!stream.priority && entry.port == port.port);
+        has_untagged = has_untagged || !stream.priority;
       }
     }
-    const bool strips = port.config->untagged || !has_tagged;
+    const bool strips = port.config->untagged || (has_untagged && !has_tagged);
     if (has_untagged && !strips) lose(port, "frames without a tag beside those that have a priority tag alone: all leave with the tag of VLAN 1");
     text_ += fmt::format("bridge vlan add dev {} vid {} pvid{}\n", port.interface, default_vlan, strips ? " untagged" : "");
   }

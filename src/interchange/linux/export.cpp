@@ -360,9 +360,10 @@ class ScriptWriter {
   }
 
   void write_clock() {
-    const std::vector<linux_tc::Ptp4lFile> files = linux_tc::ptp4l_files(r_, device_, settings_["timestamps"] == "software", exported_);
+    const bool in_software = settings_["timestamps"] == "software";
+    const std::vector<linux_tc::Ptp4lFile> files = linux_tc::ptp4l_files(r_, device_, in_software, exported_);
     if (files.empty()) return;
-    text_ += "\n# gPTP; then the clock of the system after that of the interface\n";
+    text_ += in_software ? "\n# gPTP, which sets the clock of the system\n" : "\n# gPTP; then the clock of the system after that of the interface\n";
     for (const linux_tc::Ptp4lFile& file : files) {
       const std::string name = files.size() == 1 ? device_.name + ".ptp4l.conf" : fmt::format("{}.domain{}.ptp4l.conf", device_.name, file.domain);
       text_ += "#   ptp4l -f " + json::shell_word(json::file_name(name));
@@ -370,7 +371,7 @@ class ScriptWriter {
       text_ += "\n";
       exported_.files.push_back({name, file.content});
     }
-    if (!device_.ports.empty()) text_ += fmt::format("#   phc2sys -s {} -c CLOCK_REALTIME -w --transportSpecific=1\n", device_.ports.front().interface);
+    if (!device_.ports.empty() && !in_software) text_ += fmt::format("#   phc2sys -s {} -c CLOCK_REALTIME -w --transportSpecific=1\n", device_.ports.front().interface);
   }
 
   const scenario::Resolved& r_;

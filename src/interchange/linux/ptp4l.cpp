@@ -318,7 +318,8 @@ std::vector<Ptp4lFile> ptp4l_files(const scenario::Resolved& resolved, const Dev
                                      {"min_neighbor_prop_delay", "-20000000"}})
       add(key, value);
     if (node.roles) add("BMCA", "noop");
-    if (device.ports.size() > 1) add("boundary_clock_jbod", "1");
+    // Interfaces with a clock each; with time stamps of software ptp4l would switch to a clock that is not there.
+    if (device.ports.size() > 1 && !in_software) add("boundary_clock_jbod", "1");
     const auto clock = std::ranges::find(resolved.scenario.clocks.nodes, device.name,
                                          [](const auto& each) -> const std::string& { return each.first; });
     const scenario::Clock* const own = clock != resolved.scenario.clocks.nodes.end() ? &clock->second

@@ -45,8 +45,9 @@ class ScriptWriter {
     const std::size_t header = text_.size();
     if (device_.kind != models::NodeKind::host) write_bridge();
     else write_interfaces_of_host();
-    for (const DevicePort& port : device_.ports) write_port(port);
+    // Before the gates: a qdisc that comes later resets those of its interface, and Linux 6.1 then stops their timer.
     if (device_.ingress != nullptr || (device_.kind != models::NodeKind::host && !offloads())) write_ingress();
+    for (const DevicePort& port : device_.ports) write_port(port);
     const bool splits = std::ranges::any_of(r_.plan.host_splits, [&](const models::HostSplitPlan& each) { return r_.plan.streams[each.stream.value].talker.value == device_.node; });
     const bool recovers = std::ranges::any_of(r_.plan.host_recoveries, [&](const models::HostRecoveryPlan& each) { return each.host.value == device_.node; });
     if (splits || recovers) exported_.lose(device_.name, "redundancy (802.1CB) in the host");
@@ -363,7 +364,8 @@ class ScriptWriter {
     const bool in_software = settings_["timestamps"] == "software";
     const std::vector<linux_tc::Ptp4lFile> files = linux_tc::ptp4l_files(r_, device_, in_software, exported_);
     if (files.empty()) return;
-    text_ += in_software ? "\n# gPTP, which sets the clock of the system\n" : "\n# gPTP; then the clock of the system after that of the interface\n";
+    text_ += in_software ? "\n# gPTP, which sets the clock of the system\n"
+                         : "\n# gPTP; then the clock of the system after that of the interface\n";
     for (const linux_tc::Ptp4lFile& file : files) {
       const std::string name = files.size() == 1 ? device_.name + ".ptp4l.conf" : fmt::format("{}.domain{}.ptp4l.conf", device_.name, file.domain);
       text_ += "#   ptp4l -f " + json::shell_word(json::file_name(name));

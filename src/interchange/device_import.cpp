@@ -269,7 +269,7 @@ class DeviceBuilder {
     if (!device.forwards && device.ports.size() == 1 && ports.egress.size() == 1) ports.egress.front().to.reset();
   }
 
-  /// A bridge takes the tag of VLAN 1 off frames that came without one: between switches takt's frames stay as they are.
+  /// A bridge takes the tag of VLAN 1 off frames that came without one: between switches takt's stay as they are.
   void keep_tags_before_a_switch(const ImportedPort& port, const std::string& peer, Egress& egress) {
     const auto neighbour = std::ranges::find(scenario_.network.nodes, peer,
                                              [](const auto& each) -> const std::string& { return each.first; });

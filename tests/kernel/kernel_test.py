@@ -57,7 +57,8 @@ def links_of(script):
 
 def without_peers(dump):
     """The other ends of the pairs are no interfaces of the device."""
-    return json.dumps([each for each in json.loads(dump) if not each.get("ifname", each.get("dev", "")).startswith("p")])
+    interfaces = [each for each in json.loads(dump) if not each.get("ifname", each.get("dev", "")).startswith("p")]
+    return json.dumps(interfaces)
 
 
 def bare(script):
@@ -68,8 +69,9 @@ def bare(script):
 
 # Scripts take seconds each in the emulated PC: those of a few scenarios in the full tier, of all at night.
 AT_NIGHT = os.environ.get("TAKT_TIER") == "night"
-FEW = ("two-sources-and-a-gate", "credit-based-shaper", "launch-time", "window-of-untagged-frame",
-       "gates-behind-stream-gates")
+FEW = ("two-sources-and-a-gate", "credit-based-shaper", "launch-time", "gates-behind-stream-gates")
+# A dump does not say whether VLAN 1 leaves without a tag by default or since somebody wants it: it is not read.
+WITHOUT_WAY_BACK = ("window-of-untagged-frame",)
 JUDGED = [path for path in SHIPPED if AT_NIGHT or path.stem in FEW]
 IN_ONE_KERNEL = 12   # scripts
 DUMPS = {"qdisc": "tc -j qdisc show", "link": "ip -j -d link show", "vlan": "bridge -j vlan show"}
@@ -121,7 +123,8 @@ class Scripts(unittest.TestCase):
             with self.subTest(script=text.splitlines()[1]):
                 self.assertEqual(re.findall(rf"^@status {key} (\d+)$", said, re.M), ["0", "0"], said[max(0, said.find(f"@status {key}") - 500):][:600])
         self.assertNotIn("addattr_l ERROR", said)   # tc 6.1 says so and ends with 0
-        dumps = {(key, kind): without_peers(text) for key, kind, text in re.findall(r"^@dump (\w+) (\w+)\n(.*)$", said, re.M)}
+        dumped = re.findall(r"^@dump (\w+) (\w+)\n(.*)$", said, re.M)
+        dumps = {(key, kind): without_peers(text) for key, kind, text in dumped}
         for key, text in scripts.items():
             flags = {each["ifname"]: each["flags"] for each in json.loads(dumps[key, "link"])}
             with self.subTest(up=text.splitlines()[1]):
@@ -134,6 +137,8 @@ class Scripts(unittest.TestCase):
         for scenario, keys in nodes.items():
             if any("police" in scripts[key] or "action gate" in scripts[key] for key in keys.values()):
                 continue   # tc -j prints no rates of meters
+            if scenario.stem in WITHOUT_WAY_BACK:
+                continue
             files = []
             for node, key in keys.items():
                 for kind in DUMPS:

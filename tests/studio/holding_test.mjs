@@ -121,7 +121,7 @@ try {
   assert.notEqual(await textOf(page), before);
   await back(page);
   assert.equal(await textOf(page), before);
-  await page.focus('[data-grip$=":edge1"]');
+  await page.$eval('[data-grip$=":edge1"]', (each) => each.focus());
   await page.keyboard.press("ArrowRight");
   assert.match(await textOf(page), /"for": "110us"\}, .*"for": "890us"/);
   await back(page);

@@ -57,7 +57,9 @@ const open = async () => {
   await page.waitForFunction(() => document.querySelector("#streams").textContent !== "", { timeout: 120_000 });
   return page;
 };
-const until = (page, what, ...values) => page.waitForFunction(what, { timeout: 60_000 }, ...values);
+// A page behind another one draws no frames: it is asked by the clock.
+const until = (page, what, ...values) =>
+  page.waitForFunction(what, { timeout: 60_000, polling: 50 }, ...values);
 const ctrl = async (page, key) => {
   await page.bringToFront();
   await page.focus(".cm-content");

@@ -142,7 +142,7 @@ try {
   for (let n = 0; n < 14; ++n) await page.keyboard.press("ArrowDown");
   for (let n = 0; n < 10; ++n) await page.keyboard.press("ArrowRight");
   await until(() => document.querySelector("#network-path").textContent.startsWith("camera: h2 to sw2"));
-  await page.focus('[data-link="sw2 sw3"], [data-link="sw3 sw2"]');
+  await page.$eval('[data-link="sw2 sw3"], [data-link="sw3 sw2"]', (each) => each.focus());
   await page.keyboard.press("Enter");
   await until(() => document.querySelector("#timeline-filter").value === "sw2:1 to sw3 | sw3:0 to sw2");
   await page.$eval("#timeline-filter", (input) => ((input.value = ""), input.dispatchEvent(new Event("input"))));

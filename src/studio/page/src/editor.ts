@@ -20,7 +20,7 @@ import {
 } from "@codemirror/language";
 import { lintGutter, lintKeymap, setDiagnostics, type Diagnostic as Mark } from "@codemirror/lint";
 import { highlightSelectionMatches, searchKeymap } from "@codemirror/search";
-import { Compartment, EditorState, Transaction, type Extension } from "@codemirror/state";
+import { Annotation, Compartment, EditorState, Transaction, type Extension } from "@codemirror/state";
 import { oneDark } from "@codemirror/theme-one-dark";
 import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import type { SyntaxNode } from "@lezer/common";
@@ -105,6 +105,11 @@ function hover(schema: Schema): Extension {
   });
 }
 
+/// A movement of the hand, which belongs to the movement before it.
+const held = Annotation.define<boolean>();
+const typingPause = 500; // ms without a key after which what is typed is another step of the history
+const longestHold = 86_400_000; // ms
+
 /// What the editor reports.
 export interface Listener {
   changed: (isUnderTheHand: boolean) => void;
@@ -115,7 +120,8 @@ export interface Listener {
 export class Editor {
   readonly view: EditorView;
   private dragged: string | null = null; // the text before what the hand moves
-  private isQuiet = false;
+  private isMoved = false; // by the hand that holds it
+  private changedAt = 0;
   private readonly scheme = new Compartment();
 
   constructor(
@@ -133,7 +139,12 @@ export class Editor {
         extensions: [
           lineNumbers(),
           foldGutter(),
-          history(),
+          // All movements of one drag are one step, however long the hand rests between them.
+          history({
+            newGroupDelay: longestHold,
+            joinToEvent: (transaction, isAdjacent) =>
+              transaction.annotation(held) ?? (isAdjacent && Date.now() - this.changedAt < typingPause),
+          }),
           drawSelection(),
           indentOnInput(),
           bracketMatching(),
@@ -159,7 +170,8 @@ export class Editor {
           ]),
           EditorView.contentAttributes.of({ "aria-label": "Scenario, JSON" }),
           EditorView.updateListener.of((update) => {
-            if (update.docChanged && !this.isQuiet) listener.changed(this.dragged !== null);
+            if (update.docChanged) this.changedAt = Date.now();
+            if (update.docChanged) listener.changed(this.dragged !== null);
             if (update.docChanged || update.selectionSet) listener.moved(this.path());
           }),
           this.scheme.of(look()),
@@ -190,31 +202,26 @@ export class Editor {
     this.view.dispatch({ changes: difference(this.text(), text), annotations: isolateHistory.of("full") });
   }
 
-  /// The hand moves something: edits of the text as it was before. Many movements are one step of the history, made by drop().
+  /// The hand moves something: edits of the text as it was before. Many movements are one step of the history.
   drag(edits: (text: string) => Edit[]): void {
     this.dragged ??= this.text();
-    this.show(applied(this.dragged, edits(this.dragged)));
+    const changes = difference(this.text(), applied(this.dragged, edits(this.dragged)));
+    if (changes.from === changes.to && changes.insert === "") return;
+    this.view.dispatch({ changes, annotations: this.isMoved ? held.of(true) : isolateHistory.of("before") });
+    this.isMoved = true;
   }
 
   isDragging(): boolean {
     return this.dragged !== null;
   }
 
+  /// The hand lets go: the next change is another step.
   drop(): void {
-    const before = this.dragged;
-    if (before === null) return;
-    const after = this.text();
-    this.isQuiet = true; // nobody works at the text that is passed on the way
-    this.show(before);
-    this.isQuiet = false;
+    if (this.dragged === null) return;
     this.dragged = null;
-    if (after !== before) this.replace(after);
-    else this.listener.changed(false);
-  }
-
-  private show(text: string): void {
-    if (text !== this.text())
-      this.view.dispatch({ changes: difference(this.text(), text), annotations: Transaction.addToHistory.of(false) });
+    this.isMoved = false;
+    this.view.dispatch({ annotations: isolateHistory.of("full") });
+    this.listener.changed(false);
   }
 
   /// Line and column count from 1, columns in code points; 0 is the whole file.

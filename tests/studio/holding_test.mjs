@@ -194,11 +194,7 @@ try {
       const place = document.querySelector("#slider");
       const line = [...document.querySelectorAll(".cm-line")].find((one) => new RegExp(what).test(one.textContent));
       const value = [...line.querySelectorAll("span")].find(
-        (one) =>
-          /^"\d+\w+"$/.test(one.textContent) &&
-          (what.includes("cycle")
-            ? one.previousElementSibling?.textContent.includes("cycle")
-            : one.textContent === '"20us"'),
+        (one) => /^"\d+\w+"$/.test(one.textContent) && (what.includes("cycle") || one.textContent === '"20us"'),
       );
       const range = document.createRange();
       range.setStart(value.firstChild, 2);

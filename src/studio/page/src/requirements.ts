@@ -63,6 +63,13 @@ function bar(line: Line): HTMLElement {
   return made;
 }
 
+/// What counts most of what is known of this text, beside its limit. Bounds of an earlier text do not count.
+function ofLimit(line: Line): string {
+  const isRun = line.isEarlier || line.verdict === "fail";
+  const most = isRun ? line.simulated : (line.bound ?? line.worst ?? line.simulated);
+  return line.limit ? `${time(most)} of ${time(line.limit)}` : "";
+}
+
 const legend = (): HTMLElement => {
   const made = element("p", "", "legend note");
   for (const [look, words] of [
@@ -93,7 +100,7 @@ export class RequirementsView {
     ["limit", "by limit"],
   ]);
   private readonly count = element("span", "", "note");
-  private readonly place = element("div");
+  private readonly place = element("div", "", "figures-place");
   private readonly parts: HTMLElement[];
   private chosen = -1;
 
@@ -181,11 +188,7 @@ export class RequirementsView {
     const made = element("table", "", "figures");
     const head = element("tr");
     for (const [name, key] of heads) {
-      const cell = element(
-        "th",
-        key === "verdict" || key === "text" ? "" : "",
-        ["simulated", "worst", "bound", "limit"].includes(key) ? "n" : "",
-      );
+      const cell = element("th", "", ["simulated", "worst", "bound", "limit"].includes(key) ? "n" : "");
       const sorter = button(name === "" ? "verdict" : name, () => this.sort(key), "sort by this");
       sorter.className = "sorter";
       cell.append(sorter);
@@ -214,7 +217,7 @@ export class RequirementsView {
           element("span", each.words, each.verdict),
           element("span", each.text),
           bar(each),
-          element("span", `${time(each.bound ?? each.worst ?? each.simulated)} of ${time(each.limit)}`, "n"),
+          element("span", ofLimit(each), "n"),
         );
         return made;
       });

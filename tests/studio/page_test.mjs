@@ -210,6 +210,7 @@ try {
   await page.keyboard.type('"stream": "co');
   await page.waitForSelector(".cm-tooltip-autocomplete", { timeout: 60_000 });
   assert.match(await page.$eval(".cm-tooltip-autocomplete", (element) => element.textContent), /"control"/);
+  await new Promise((next) => setTimeout(next, 300)); // a list that has just come takes no key yet
   await key("Enter");
   await until(() =>
     document.querySelector(".cm-content").textContent.includes('"stream": "control", "latency": "400us"'),

@@ -156,9 +156,12 @@ void Engine::work_at(std::uint64_t revision, const std::string& text, Pace pace)
   const auto verify_with = [&](std::uint64_t events) {
     verify::Options options;
     options.search.events = events;
-    const auto end = std::chrono::steady_clock::now() + effort_.longest_proof;
-    options.search.interrupted = [&, end] { return !is_current(revision) || std::chrono::steady_clock::now() > end; };
-    options.proof.interrupted = options.search.interrupted;
+    const auto begun = std::chrono::steady_clock::now();
+    const auto within = [&, begun](std::chrono::seconds most) {
+      return [&, end = begun + most] { return !is_current(revision) || std::chrono::steady_clock::now() > end; };
+    };
+    options.search.interrupted = within(is_coarse ? effort_.coarse_search : effort_.longest_proof);
+    options.proof.interrupted = within(effort_.longest_proof);
     const verify::Verification verification = verify::verify(*resolved, options);
     keep_worst(revision, verification);
     return verify::json_report(resolved->scenario.name, verification, std::vector<std::string>(verification.lines.size()));

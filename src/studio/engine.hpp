@@ -58,6 +58,7 @@ struct Effort {
   std::uint64_t run_events = 200'000'000;
   std::uint64_t search_events = 20'000'000;
   std::uint64_t coarse_events = 200'000;        ///< of the run of a text that still changes
+  std::chrono::seconds coarse_search{1};        ///< of that text: a run of days is not waited for
   std::chrono::seconds longest_proof{60};       ///< what is not proved by then is undecided; a search may take as long again
 };
 

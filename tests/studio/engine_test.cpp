@@ -78,18 +78,28 @@ TEST(Engine, EndsInTheMiddleOfARun) {
 }
 
 TEST(Engine, ATextUnderTheHandIsWorkedAtInPart) {
-  Engine engine("small.json", {.coarse_events = 10});
+  Engine engine("small.json", {.coarse_events = 10, .coarse_search = std::chrono::seconds(60)});
   engine.set_text(1, small);
   const std::string text = wait_for(engine, 1, Stage::done).text;
   EXPECT_EQ(text, Document::digest_of(small));
   std::string longer = small;
-  longer.replace(longer.find("20ms"), 4, "2400h");
+  longer.replace(longer.find("20ms"), 4, "100s");
   engine.set_text(2, longer, Pace::coarse);
   const Findings found = wait_for(engine, 2, Stage::sketched);
   EXPECT_NE(found.result.find("\"partial\": true"), std::string::npos);
   EXPECT_NE(found.proofs.find("\"bound_ps\""), std::string::npos);
   engine.set_text(3, small);
   EXPECT_EQ(wait_for(engine, 3, Stage::done).text, text);
+}
+
+TEST(Engine, ARunOfDaysIsNotWaitedForUnderTheHand) {
+  Engine engine("small.json", {.coarse_events = 10, .coarse_search = std::chrono::seconds(0)});
+  std::string longer = small;
+  longer.replace(longer.find("20ms"), 4, "2400h");
+  engine.set_text(1, longer, Pace::coarse);
+  const Findings found = wait_for(engine, 1, Stage::sketched);
+  EXPECT_NE(found.result.find("\"partial\": true"), std::string::npos);
+  EXPECT_NE(found.proofs.find("\"partial\": true"), std::string::npos);
 }
 
 TEST(Engine, TheSameTextIsNotWorkedAtAgain) {

@@ -116,7 +116,8 @@ export class RequirementsView {
 
   show(found: Findings, isCoarse: boolean): void {
     const places = found.network?.requirements ?? [];
-    const proofs = found.proofs?.requirements ?? null;
+    const all = found.proofs?.requirements ?? [];
+    const proofs = all.length > 0 ? all : null; // of a run that was not waited for nothing is proved
     if (proofs) this.proofs = proofs;
     const of = (each: Proof | RunRequirement, number: number) => ({
       number,
@@ -150,7 +151,7 @@ export class RequirementsView {
           simulated: each.measured_ps ?? null,
           worst: before?.adversarial_ps ?? null,
           bound: before?.bound_ps ?? null,
-          isOpen: !before,
+          isOpen: !before && !found.proofs,
           isEarlier: before !== undefined,
         };
       });

@@ -10,9 +10,10 @@ PortDirectory::PortDirectory(const Network& network) {
     const std::span<const EgressPort> ports = network.ports({n});
     for (std::size_t p = 0; p < ports.size(); ++p) {
       const sim::ComponentId component = ports[p].id();
-      if (by_component_.size() <= component.index) by_component_.resize(component.index + std::size_t{1}, none);
-      by_component_[component.index] = static_cast<std::uint32_t>(ports_.size());
       ports_.push_back({{{n}, static_cast<std::uint16_t>(p)}, {}, {}, component});
+      if (!ports[p].is_connected()) continue;  // it is no component: its number is that of another one
+      if (by_component_.size() <= component.index) by_component_.resize(component.index + std::size_t{1}, none);
+      by_component_[component.index] = static_cast<std::uint32_t>(ports_.size()) - 1;
     }
   }
   const auto connect = [&](const LinkPlan::End& from, const LinkPlan::End& to, const LinkPlan& link) {

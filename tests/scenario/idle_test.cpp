@@ -188,7 +188,7 @@ const IdleCase cases[] = {
     {"GatesBeforeClocks",
      egress(R"("gates": {"entries": [{"open": [7], "for": "100us"}, {"open": [0, 1, 2, 3, 4, 5, 6, 7], "for": "900us"}]})",
             both, R"(, "clocks": {"all": {"offset": "10ppm"}, "gptp": {}}, "require": [{"sync": "1us", "after": "5ms"}])"),
-     "/network/nodes/sw1/egress/0/gates: gates that run before clocks are synchronised: lists of sw1:1 from 0s on, and "
+     "/network/nodes/sw1/egress/0/gates/base_time: gates that run before clocks are synchronised: lists of sw1:1 from 0s on, and "
      "clocks from 5ms on: a frame that misses its window then stands before all that follow | a \"base_time\" of 5ms or later\n"},
     {"ClocksInVain", plain(R"(, "clocks": {"nodes": {"a": {"ideal": true, "drift": "1ppb"}, "b": {"table": [{"at": "20ms", "frequency": "1ppm"}]}}})"),
      "/clocks/nodes/a/drift: an oscillator of an ideal clock: \"ideal\": true beside it | one of them\n"

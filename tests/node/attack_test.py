@@ -121,8 +121,9 @@ class Isolation(real_node_test.Namespaces, Attack):
         plc = f"{self.tag}plc"
 
         def make():
-            self.ip("-n", plc, "link", "add", "usb0", "type", "dummy")
-            self.ip("-n", plc, "link", "set", "usb0", "up")
+            self.ip("-n", plc, "link", "add", "usb0", "type", "veth", "peer", "name", "cable0")
+            for end in ("usb0", "cable0"):
+                self.ip("-n", plc, "link", "set", end, "up")
 
         make()
         self.start_plc({"kind": "ethernet", "interface": "usb0"})

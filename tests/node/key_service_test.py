@@ -298,7 +298,7 @@ class Refusals(KeyServiceTest):
         self.assertEqual(process.wait(timeout=PATIENCE), 0)
         self.expect("it gives no keys of cell to anna: Bad_UserAccessDenied", user="anna")
         self.expect("it gives no keys of cell to stranger: Bad_UserAccessDenied", user="stranger")
-        self.assertIn("keys for stranger: Bad_UserAccessDenied", self.said_by("sks"))
+        self.assertIn("keys: stranger: Bad_UserAccessDenied", self.said_by("sks"))
         write_private(self.folder / "left.password", "another one\n")
         self.expect("it refuses the sign-in: Bad_UserAccessDenied")
 

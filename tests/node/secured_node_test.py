@@ -167,7 +167,7 @@ class Secured(real_node_test.NodeTest, Attack):
             time.sleep(0.0002)
         self.group.wait_for_state("Halted")
         status = self.group.status("left")
-        self.assertEqual(status["security"]["life"], (life + 1) % 65536)
+        self.assertIn((status["security"]["life"] - life) % 65536, range(1, 32768), "later lives follow the time of day")
         self.assertGreater(self.refusals(status).get("replayed", 0) + self.refusals(status).get("token", 0), 0)
         self.assertEqual(self.group.call("plc", "start").returncode, 0)
         self.group.wait_for_state("Running")

@@ -16,6 +16,13 @@ struct ShellToken {
   json::Place place;
 };
 
+/// What stands between a here-document's redirection and its end. (Outside of the class: clang 14 takes no optional of a
+/// nested struct with initialisers.)
+struct HereDocument {
+  std::string text;
+  std::uint32_t line = 0;
+};
+
 class ShellLexer {
  public:
   ShellLexer(std::string_view text, const std::string& file) : text_(text), file_(file) {}
@@ -44,12 +51,8 @@ class ShellLexer {
   }
 
   /// Redirections of the command that was read, and its documents.
-  struct Document {
-    std::string text;
-    std::uint32_t line = 0;
-  };
-  std::optional<Document> take_document() {
-    std::optional<Document> taken;
+  std::optional<HereDocument> take_document() {
+    std::optional<HereDocument> taken;
     std::swap(taken, document_);
     return taken;
   }
@@ -251,7 +254,7 @@ class ShellLexer {
   std::uint32_t line_ = 1, column_ = 1;
   std::optional<std::string> awaited_;
   bool awaited_strips_ = false;
-  std::optional<Document> document_;
+  std::optional<HereDocument> document_;
 };
 
 }  // namespace takt::interchange::linux_tc

@@ -108,7 +108,8 @@ void Usage::add_egress() {
     for (const Egress& egress : egress_of(r_.topology.nodes[n])) {
       const auto [found, is_new] = known.emplace(key_of(egress.where, &egress), egress_.size());
       if (is_new) egress_.push_back({&egress, r_.topology.nodes[n].name, {}});
-      for (const PortUse& use : std::ranges::equal_range(ports_, n, {}, &PortUse::node)) {
+      for (auto at = std::ranges::lower_bound(ports_, n, {}, &PortUse::node); at != ports_.end() && at->node == n; ++at) {
+        const PortUse& use = *at;
         const Neighbour& peer = *std::ranges::find(r_.topology.neighbours[n], use.port, &Neighbour::port);
         const auto goes_before = [&](const Egress& other) {
           return other.to && r_.topology.is_named(*other.to, peer.node, peer.their_port) &&

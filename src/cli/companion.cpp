@@ -1,5 +1,6 @@
 #include "cli/companion.hpp"
 
+#include <sys/auxv.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -26,9 +27,23 @@ const char* companion_help(std::string_view command) {
   return companion->help;
 }
 
-std::string path_of_program(std::string_view program) {
+namespace {
+
+/// The running program. Where /proc is not mounted, as in a bare root, the path by which it was started.
+std::filesystem::path path_of_this_program() {
   std::error_code error;
-  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) return path;
+  const auto* const started = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
+  if (started == nullptr) return {};
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(started, error), error);
+}
+
+}  // namespace
+
+std::string path_of_program(std::string_view program) {
+  const std::filesystem::path folder = path_of_this_program().parent_path();
+  if (folder.empty()) return {};   // never the current folder, where anything may lie
   for (const std::filesystem::path& candidate : {folder / program, folder / "../libexec/takt" / program, folder / "../../bin" / program})
     if (::access(candidate.c_str(), X_OK) == 0) return candidate;
   return {};

@@ -116,6 +116,8 @@ try {
   assert.match(await textOf(page), /"name": "control".*"offset": "[67]\dus"/);
   await back(page);
   assert.equal(await textOf(page), before);
+  // The bars above the chart change their height until the text has been worked at.
+  await until(page, () => document.querySelector("#stage").textContent === "done");
   await drag(page, ".gates .window:nth-of-type(5)", 0.02 * width);
   await page.mouse.up();
   assert.notEqual(await textOf(page), before);

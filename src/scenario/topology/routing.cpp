@@ -124,7 +124,7 @@ std::optional<Path> Router::to_host(std::uint32_t from, std::uint32_t to) {
 
 void Router::lay_ahead(std::vector<Ends> wanted) {
   std::ranges::sort(wanted);
-  wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   ends_laid_ = std::move(wanted);
   laid_.resize(ends_laid_.size());
   std::vector<std::pair<std::uint32_t, std::size_t>> by_root;

@@ -316,11 +316,13 @@ class Checks {
             return !found.contains(each.first) || found.at(each.first).paths != each.second.paths;
           }))
         continue;
-      for (const auto& [name, bound] : wanted)
-        expect(found.at(name).latency == bound.latency, [&] {
-          return name + ": the bound is " + words_of(bound.latency) + ", and with another order in the file " +
-                 words_of(found.at(name).latency);
+      for (const auto& each : wanted) {  // clang 14 captures no structured binding
+        const Ordered& again = found.at(each.first);
+        expect(again.latency == each.second.latency, [&] {
+          return each.first + ": the bound is " + words_of(each.second.latency) +
+                 ", and with another order in the file " + words_of(again.latency);
         });
+      }
     }
   }
   struct Ordered {

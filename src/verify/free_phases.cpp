@@ -1,5 +1,7 @@
 #include "verify/free_phases.hpp"
 
+#include <algorithm>
+
 #include "scenario/description/promises.hpp"
 
 namespace takt::verify {
@@ -16,8 +18,10 @@ void add_free_talkers(const Scenario& scenario, std::vector<FreeVariable>& found
   for (std::size_t s = 0; s < scenario.streams.size(); ++s) {
     const scenario::Stream& stream = scenario.streams[s];
     const Duration period = stream.every ? *stream.every : stream.burst ? stream.burst->every : Duration();
-    if (!scenario::promises_phase(stream) && period > Duration())
-      found.push_back({FreeVariable::Kind::talker, s, 0, period, "phase of " + stream.name, {}, {}, {}});
+    // A phase behind the end of the stream would be a stream without frames.
+    const Duration range = std::min(period, stream.until.value_or(period));
+    if (!scenario::promises_phase(stream) && range > Duration())
+      found.push_back({FreeVariable::Kind::talker, s, 0, range, "phase of " + stream.name, {}, {}, {}});
   }
 }
 

@@ -52,6 +52,61 @@ TEST(KeyService, WhoIsTrustedNoMoreGoes) {
   EXPECT_EQ(bench.server.services().sessions(), 0u);
 }
 
+/// An OPN of the client of the bench, with this sequence number.
+std::vector<std::byte> open_of(SecurityTokenRequestType type, std::uint32_t channel, std::uint32_t number) {
+  OpenSecureChannelRequest request;
+  request.request_type = type;
+  request.security_mode = MessageSecurityMode::SignAndEncrypt;
+  request.client_nonce = Bytes(std::vector<std::byte>(nonce_octets));
+  request.requested_lifetime = 60'000;
+  Encoder body;
+  encode_message(body, request);
+  const auto& server = test::test_identity().certificate;
+  return *sealed_open(channel, info(SecurityPolicy::Basic256Sha256), {number, number}, body.octets(), test::other_identity(), &server);
+}
+
+TEST(KeyService, WhatComesBehindARenewalWaitsWithIt) {
+  KeyBench bench;
+  const ConnectionId id = bench.server.connected("192.0.2.9:1000", at(0));
+  Hello hello;
+  hello.receive_buffer_size = hello.send_buffer_size = 65536;
+  hello.endpoint_url = Text("opc.tcp://127.0.0.1:4840");
+  bench.server.received(id, framed(MessageType::Hello, hello), at(0));
+  bench.server.sent(id, bench.server.output(id).size(), at(0));
+  bench.server.received(id, open_of(SecurityTokenRequestType::Issue, 0, 1), at(0));
+  const Octets answer = bench.server.output(id);
+  AsymmetricHeader header;
+  const auto clear_from = decode_asymmetric_header(answer, header);
+  ASSERT_TRUE(clear_from);
+  const auto opened = open_asymmetric(answer, *clear_from, info(SecurityPolicy::Basic256Sha256), test::other_identity().key,
+                                      test::test_identity().certificate.key());
+  ASSERT_TRUE(opened);
+  Decoder decoder(Octets(*opened).subspan(sequence_header_octets));
+  NodeId type;
+  OpenSecureChannelResponse response;
+  decode(decoder, type);
+  decode(decoder, response);
+  ASSERT_FALSE(decoder.failed());
+  SecureChannel channel(response.security_token.channel_id, {SecurityPolicy::Basic256Sha256, MessageSecurityMode::SignAndEncrypt},
+                        test::test_identity().certificate, 1, Side::client, 2);
+  const std::vector<std::byte> nonce(nonce_octets);
+  channel.take(response.security_token, at(0).local, nonce, response.server_nonce.value);
+  bench.server.sent(id, answer.size(), at(0));
+
+  std::vector<std::byte> both = open_of(SecurityTokenRequestType::Renew, channel.id(), 2);
+  GetEndpointsRequest request;
+  request.endpoint_url = hello.endpoint_url;
+  Encoder body;
+  encode_message(body, request);
+  ASSERT_TRUE(channel.seal_message(3, body.octets(), {65536, 0, 0}, both));
+  bench.server.received(id, both, at(1));
+  MessageSplitter splitter(1 << 20);
+  splitter.feed(bench.server.output(id));
+  std::vector<MessageType> answers;
+  while (const auto message = splitter.next()) answers.push_back(decode_message_header(*message)->type);
+  EXPECT_EQ(answers, (std::vector{MessageType::OpenChannel, MessageType::Message})) << bench.log.last;
+}
+
 TEST(KeyService, OctetsMayComeOneByOne) {
   KeyBench bench;
   bench.piece = 1;

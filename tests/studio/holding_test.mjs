@@ -24,6 +24,7 @@ if (!existsSync(driver) || chromium === undefined) {
 const puppeteer = (await import(pathToFileURL(driver).href)).default;
 const folder = await mkdtemp(join(tmpdir(), "takt-holding-"));
 const browser = await puppeteer.launch({
+  timeout: 180_000,
   executablePath: chromium,
   headless: true,
   args: [
@@ -46,6 +47,7 @@ const open = async (name, text) => {
     studio.once("exit", (status) => fail(new Error(`takt studio ended with ${status}`)));
   });
   const page = await browser.newPage();
+  page.setDefaultTimeout(180_000);
   await page.setViewport({ width: 1366, height: 900 });
   page.on("dialog", (dialog) => dialog.accept());
   await page.goto(address);
@@ -171,7 +173,7 @@ try {
     return 0;
   };
   let edge = 0;
-  for (let tries = 0; tries < 50 && edge === 0; ++tries) edge = await grips(); // pieces are still to come
+  for (let tries = 0; tries < 1200 && edge === 0; ++tries) edge = await grips(); // pieces are still to come
   assert.ok(edge > 0, "an edge to take hold of");
   assert.match(
     await page.$eval("#timeline-tip", (each) => each.textContent),

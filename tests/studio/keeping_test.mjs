@@ -33,6 +33,7 @@ const start = async () => {
 };
 let { studio, address } = await start();
 const browser = await puppeteer.launch({
+  timeout: 180_000,
   executablePath: chromium,
   headless: true,
   args: [
@@ -48,6 +49,7 @@ const questions = [];
 let accepts = true;
 const open = async () => {
   const page = await browser.newPage();
+  page.setDefaultTimeout(180_000);
   await page.setViewport({ width: 1366, height: 800 });
   page.on("dialog", (dialog) => {
     questions.push(dialog.message());
@@ -73,7 +75,7 @@ const saves = async (page) => (
   await until(page, () => document.querySelector("#notice").textContent === "")
 );
 const drafted = async (words) => {
-  for (let tries = 0; tries < 200; ++tries) {
+  for (let tries = 0; tries < 1200; ++tries) {
     if ((await readFile(`${file}.draft`, "utf8").catch(() => "")).includes(words)) return;
     await new Promise((next) => setTimeout(next, 50));
   }
@@ -172,7 +174,7 @@ try {
   accepts = false;
   const before = questions.length;
   await ctrl(page, "s");
-  for (let tries = 0; tries < 100 && questions.length === before; ++tries)
+  for (let tries = 0; tries < 1200 && questions.length === before; ++tries)
     await new Promise((next) => setTimeout(next, 50));
   assert.match(questions.at(-1), /empty/);
   assert.match(await saved(), /^\/\/ an hour of work/);

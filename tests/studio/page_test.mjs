@@ -49,6 +49,7 @@ const open = async (path) => {
 };
 let { studio, address } = await open(file);
 const browser = await puppeteer.launch({
+  timeout: 180_000,
   executablePath: chromium,
   headless: true,
   args: [
@@ -64,6 +65,7 @@ const browser = await puppeteer.launch({
 });
 let failed = true;
 const page = await browser.newPage();
+page.setDefaultTimeout(180_000);
 const look = async (name) => pictures && (await page.screenshot({ path: join(pictures, `${name}.png`) }));
 try {
   await page.setViewport({ width: 1400, height: 1000 });
@@ -279,7 +281,7 @@ try {
   await focusValve();
   await press("ArrowRight", 5);
   const layout = async () => JSON.parse(await readFile(`${file}.layout`, "utf8").catch(() => "{}"));
-  for (let tries = 0; tries < 100 && !(await layout()).nodes?.valve; ++tries)
+  for (let tries = 0; tries < 1200 && !(await layout()).nodes?.valve; ++tries)
     await new Promise((next) => setTimeout(next, 50));
   assert.equal((await layout()).nodes.valve.length, 2);
   await look("edited");

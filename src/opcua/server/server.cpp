@@ -87,14 +87,19 @@ void Server::take_in(ConnectionId id, Octets octets, Now now) {
   Connection* const connection = find(id);
   if (connection == nullptr || connection->stage == Connection::Stage::closing) return;
   connection->splitter.feed(octets);
-  while (connection->stage != Connection::Stage::closing) {
-    const auto message = connection->splitter.next();
+  take_messages(*connection, now);
+}
+
+/// What has come behind an OPN waits with it: its sequence numbers follow those of the OPN.
+void Server::take_messages(Connection& connection, Now now) {
+  while (connection.stage != Connection::Stage::closing && !connection.opening) {
+    const auto message = connection.splitter.next();
     if (!message) break;
-    take(*connection, *message, now);
+    take(connection, *message, now);
   }
-  if (connection->stage != Connection::Stage::closing && connection->splitter.failure() != StatusCode::Good)
-    refuse(*connection, connection->splitter.failure(), "what is no message of UA-TCP, or one that is too long");
-  if (connection->stage != Connection::Stage::closing) count(*connection);
+  if (connection.stage != Connection::Stage::closing && connection.splitter.failure() != StatusCode::Good)
+    refuse(connection, connection.splitter.failure(), "what is no message of UA-TCP, or one that is too long");
+  if (connection.stage != Connection::Stage::closing) count(connection);
 }
 
 bool Server::takes_octets(ConnectionId id) const {
@@ -128,6 +133,7 @@ void Server::work(Now now) {
   now_ = now;
   serve_calls(now);
   serve_opens(now);
+  serve_calls(now);  // those that came behind an OPN
   serve_requests(now);
 }
 
@@ -164,6 +170,7 @@ void Server::serve_opens(Now now) {
       WaitingOpen open = std::move(*next->opening);
       next->opening.reset();
       open_channel(*next, std::move(open), now);
+      take_messages(*next, now);
     }
   }
 }

@@ -95,6 +95,7 @@ class Server final : private Responder {
   void make_room(const std::string& host);
 
   // channel_messages.cpp
+  void take_messages(Connection& connection, Now now);
   void take(Connection& connection, Octets message, Now now);
   void take_hello(Connection& connection, Octets message, Now now);
   void take_open(Connection& connection, Octets message, Now now);

@@ -180,7 +180,7 @@ export class Session {
       this.note();
       void this.tell();
     }
-    if (found.file !== this.seenFile && !this.isSaving)
+    if (found.file !== this.seenFile && !this.isSaving && !this.isLooking)
       void this.lookAtFile("The file was changed by another program or page.");
   }
   private last: Findings | null = null;
@@ -208,13 +208,31 @@ export class Session {
       : "";
   }
 
+  /// Many programs empty a file and then write it in parts. It is read when two looks in a row find the same.
+  private async restingFile() {
+    let file = await engine.file();
+    for (;;) {
+      await new Promise((done) => window.setTimeout(done, 100));
+      const again = await engine.file();
+      if (again.digest === file.digest) return again;
+      file = again;
+    }
+  }
+
+  private isLooking = false;
+  private looks = 0;
   private async lookAtFile(words: string): Promise<void> {
+    const mine = ++this.looks;
+    this.isLooking = true;
     let file;
     try {
-      file = await engine.file();
+      file = await this.restingFile();
     } catch {
       return; // seen again when it answers
+    } finally {
+      if (mine === this.looks) this.isLooking = false;
     }
+    if (mine !== this.looks) return; // another look began later
     this.seenFile = file.digest;
     const theirs = file.saved ?? "";
     if (file.problem !== "") return void text("notice", file.problem);

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What find_package(takt) gives: the protocol code (Programs, OPC UA PubSub, DDS, the gateway) and the real node, for applications of others.
 #
 #   cmake --install build/release --component takt_library --prefix PREFIX

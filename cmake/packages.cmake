@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Debian packages: takt, takt-dev, python3-takt, and debug symbols where there are some (TAKT_DEBUG_SYMBOLS).
 #
 #   tools/packages        builds them into build/packages

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The few functions that every CMakeLists.txt of takt uses.
 
 # Options that every target of takt shares: warnings are errors, floating point is never contracted, one C++ dialect.

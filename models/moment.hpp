@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state of frames and clocks at the instant of a trace record, for sinks that get records late.
 #pragma once
 

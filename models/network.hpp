@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A live network: nodes, ports, talkers and processes, built from a plan on top of one simulation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Links that are joined to one where the bypass relay of a station that is down joins its cables, and parted again.
 #include <algorithm>
 #include <functional>

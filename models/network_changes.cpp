@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What scripts and faults change while a network runs: clocks, links, nodes, gates, routes.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A network as plain data: what Network is built from. It is checked before (scenario/); here it is taken as sound.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which port a trace record speaks of: from the component that recorded it to node, number and link.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // CHECK: invariants of takt itself. They stay on in release builds.
 //
 // A user's mistake is never a CHECK (it is a diagnostic, see json/diagnostics.hpp). A failed CHECK means that takt is

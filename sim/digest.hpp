@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The digest of a run: 64 bits over what happened.
 #pragma once
 

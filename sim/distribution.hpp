@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Distributions of durations. Own ones: those of the standard library differ between implementations.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The event record and the total order of events.
 //
 // An event is a plain record of 32 octets: no closure, no allocation. Two events are ordered by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The pending events of a simulation, smallest first in the order of Event.
 //
 // The events of the near future lie in a short sorted array, where a pop is a decrement and a push moves the few events

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorting of events whose order nobody can guess: of thousands at one instant, or of the few of a bucket. Branches that
 // depend on them would be guessed wrong every second time, and each of those costs as much as twenty comparisons that
 // need no guess.

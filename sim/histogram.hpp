@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Exact counts of durations in buckets of constant relative width; no list of samples, so memory stays flat for hours.
 #pragma once
 

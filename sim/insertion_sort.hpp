@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stable sort that asks for no memory, for the few things of one instant.
 #pragma once
 

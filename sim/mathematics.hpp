@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Logarithm, exponential and the normal quantile from + - * / and sqrt alone.
 //
 // IEEE 754 fixes the result of those operations to the bit, so these functions give the same bits with every compiler,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Octets that somebody else owns, and numbers in them in both byte orders: one bounded reader and one bounded writer
 // for all protocols.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chance: named streams of random numbers, the same on every machine.
 #pragma once
 

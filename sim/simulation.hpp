@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kernel: virtual time, the event loop, the end of a node's instant, digest and trace. It knows no network.
 #pragma once
 

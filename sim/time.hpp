@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Time in signed 64-bit picoseconds, in types that do not mix.
 //
 // A byte at 10 Gb/s lasts 800 ps, so nanoseconds would be inexact. 2^63 ps are 106 days, which bounds a simulation.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A time-out that can be moved and cancelled in O(1).
 #pragma once
 

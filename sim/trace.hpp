@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What recorders (pcap, time line, waveform) see of a run.
 #pragma once
 

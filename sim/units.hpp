@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quantities with a unit other than time: octets, data rates, lengths, frequency ratios. Exact integers throughout.
 #pragma once
 

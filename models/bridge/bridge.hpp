@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A bridge (users say switch): stores and forwards, or cuts through where its ports are configured to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The static filtering database of a bridge: (VLAN, address) -> ports (IEEE 802.1Q clause 8.8).
 #pragma once
 

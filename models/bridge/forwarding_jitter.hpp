@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of a bridge's forwarding delay that differs from frame to frame.
 #pragma once
 

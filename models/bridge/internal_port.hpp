@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The port of a bridge without a cable: it leads to the host that shares its station.
 #pragma once
 

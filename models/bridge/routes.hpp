@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // By which ports the frames of each stream leave, hop by hop: what bridges have found in their filtering databases,
 // where it is found again at once.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rates of clocks in fixed point: how fast one clock runs against another, and by how much that differs from one.
 //
 // Multiples of 2^-62, so that the rate 2 (+10^6 ppm) is still exact; one unit is 2.2e-19, half a picosecond in 26 days.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When a clock shows times that come at equal distances, one after the other: by additions, for a talker asks for each
 // frame.
 //

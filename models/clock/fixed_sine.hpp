@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sine in fixed point, the same on every machine.
 #pragma once
 

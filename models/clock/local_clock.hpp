@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock of a node: what maps true time to the node's own time and back.
 //
 // The map is piecewise linear: a segment begins at each change of rate and at each step. Within a segment

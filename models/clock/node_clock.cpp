@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/clock/node_clock.hpp"
 
 namespace takt::models {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clocks of one node: an oscillator, a free-running clock for timestamps, and the one that the node's time comes
 // from.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a clock runs on: the frequency of an oscillator as a function of true time.
 //
 // y(t) = offset + drift * t + temperature(t) + table(t) + walk(t), relative to nominal. The frequency is constant for

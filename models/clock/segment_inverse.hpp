@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When a clock that runs at one rate shows a time, by one multiplication: a division of 128 bits takes ten times as
 // long, and each frame of a talker asks.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The servo: from measured offsets to the frequency (and the step) that brings a clock to its reference.
 //
 // The PI controller of linuxptp with its gain rule, kp = min(0.7 T^-0.3, 0.7/T) and ki = min(0.3 T^0.4, 0.3/T) for the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a network interface makes of the instant at which a frame passes: granularity, jitter, latencies of the PHY.
 #pragma once
 

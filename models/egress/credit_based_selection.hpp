@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The credit-based shaper algorithm for one class of a port (IEEE 802.1Q 8.6.8.2): the credit, and the gate that it
 // follows.
 #pragma once

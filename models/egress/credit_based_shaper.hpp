@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The credit-based shaper of one traffic class, in exact integers (IEEE 802.1Q clause 8.6.8.2, formerly Qav).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A cyclic list of intervals as a function of time, and how one list takes the place of another (IEEE 802.1Q
 // clause 8.6.9).
 //

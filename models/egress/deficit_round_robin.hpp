@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Enhanced transmission selection (IEEE 802.1Q 8.6.8.3, clause 37): whose turn it is among the classes that share
 // bandwidth.
 //

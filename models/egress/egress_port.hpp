@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sending side of a port: queues and transmission selection in front of a link. The same class serves hosts and
 // bridges.
 #pragma once

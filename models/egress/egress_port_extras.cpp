@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What few ports do: preemption, cut-through, shared bandwidth, full queues. Traces of all ports. Faults: changed
 // gates, failing links.
 #include <algorithm>

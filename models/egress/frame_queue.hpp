@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Eight first-in-first-out queues of a port, whose entries lie in one pool of the network.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the transmission gates of a port do in one cycle (IEEE 802.1Q clauses 8.6.8.4 and 8.6.9.2, Table 8-7).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/egress/gate_schedule.hpp"
 
 namespace takt::models {

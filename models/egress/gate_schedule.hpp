@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transmission gates of a port as a function of the node's own synchronised time (IEEE 802.1Q
 // clauses 8.6.8.4, 8.6.9).
 #pragma once

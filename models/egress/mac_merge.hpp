@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The MAC Merge sublayer of a sending port (IEEE 802.3 clause 99): which preemptable frame is under way, which one has
 // been cut and waits for its continuation, whether the MAC is asked to hold.
 #pragma once

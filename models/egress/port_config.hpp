@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a port is configured to do; shared by the ports that are configured alike.
 #pragma once
 

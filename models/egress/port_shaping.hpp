@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When a class of a port may send (IEEE 802.1Q 8.6.8): its transmission gate, its transmission selection algorithm, its
 // maximum SDU size.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where and how a preemptable frame may be cut (IEEE 802.3 clause 99, formerly 802.3br; IEEE 802.1Q clause 6.7.2).
 //
 // A preemptable frame travels as one or more mPackets, its fragments. Only the last one carries the frame's FCS; each

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What management sets of a port: gates, the transmission selection algorithm of each class, maximum SDU sizes.
 #pragma once
 

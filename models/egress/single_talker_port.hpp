@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sending side of a port to which one process alone hands frames.
 //
 // Such a port has nothing to decide: a frame starts when it is handed over, or when the one before it is over. Both are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is known of deliveries beyond the account that every stream has: accounts that begin later, and which frames
 // have reached whom. Only streams for which that is asked are in it; the others cost nothing.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A frame in flight, and the names by which the network knows streams, addresses and payloads.
 #pragma once
 

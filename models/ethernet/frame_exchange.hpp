@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a link ends whose receiver acts in another part of a divided run.
 #pragma once
 

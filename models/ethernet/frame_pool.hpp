@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames and payloads behind 32-bit handles, at addresses that stay. In steady state nothing is allocated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One direction of a link: the medium, what is on it, and what becomes of that.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames that end at the next node and belong to its control plane, such as those of gPTP (IEEE 802.1Q Table 8-1:
 // addresses that bridges do not forward).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MAC addresses as they are on the wire, derived from the addresses that the network counts.
 #pragma once
 

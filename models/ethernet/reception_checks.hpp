@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a node checks each arrival with its link.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which frames of a stream have reached a listener, however many copies of each there are.
 #pragma once
 

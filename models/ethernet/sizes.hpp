@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a frame occupies on the wire (IEEE 802.3 clauses 3 and 4, IEEE 802.1Q clause 9).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frames under way and the account of every stream: what was sent, delivered, dropped and why.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes wrong on one direction of a link: chance that harms frames, and times in which the link is down.
 #pragma once
 

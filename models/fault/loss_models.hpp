@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What chance does to frames on a link: loss, bursts of loss, corruption, duplication. Integer comparisons only.
 //
 // Every question takes the same number of draws whatever the probabilities are, so two variants of a study share their

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The redundancy of an end station: what a talker's stack does to frames before they are queued, and a listener's
 // before they are delivered (IEEE 802.1CB clause 8, talker and listener end systems).
 #pragma once

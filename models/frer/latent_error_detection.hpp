@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Latent error detection (IEEE 802.1CB clause 7.4.4): do as many copies arrive as there are paths?
 #pragma once
 

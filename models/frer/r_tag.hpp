@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The redundancy tag (IEEE 802.1CB clause 7.8): six octets after the VLAN tag, before the frame's own EtherType.
 #pragma once
 

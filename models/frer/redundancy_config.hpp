@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What management sets of a redundant stream: where it is split into member streams, and where these become one again
 // (IEEE 802.1CB clauses 7.4.1, 7.4.3, 7.5, 7.7). Plain data, the same for bridges and hosts.
 #pragma once

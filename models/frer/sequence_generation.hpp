@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sequence generation function (IEEE 802.1CB clause 7.4.1): numbers the frames of a compound stream.
 #pragma once
 

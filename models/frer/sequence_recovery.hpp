@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sequence recovery function (IEEE 802.1CB clause 7.4.3): has this frame been here before?
 #pragma once
 

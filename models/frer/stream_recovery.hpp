@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Makes one stream of its members again: individual recovery of each, sequence recovery of all, latent error detection
 // (IEEE 802.1CB clauses 7.4.3, 7.4.4, 7.5).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splits a compound stream: numbers its frames and makes one frame of each for every member (IEEE 802.1CB
 // clauses 7.4.1, 7.7).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether the neighbour at a port says that it is capable of gPTP in a domain, IEEE 802.1AS-2020 10.4:
 // GptpCapableTransmit and GptpCapableReceive.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clock that gPTP disciplines: from SyncSamples to adjustments of a LocalClock, with holdover in between.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The octets of gPTP messages, IEEE 802.1AS-2020 clauses 10.6 and 11.4: what follows the EtherType 0x88F7 in a frame.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A ratio of two clocks that is not constant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hot standby: two PTP instances in two domains, and which of them gives the time. IEEE 802.1ASdm, HotStandbySystem.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The peer-to-peer delay mechanism of a port, IEEE 802.1AS-2020 11.2.19 and 11.2.20: MDPdelayReq and MDPdelayResp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The messages of IEEE 802.1AS-2020 as values; codec.hpp turns them into octets and back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // logMessageInterval of what a port sends, which its neighbour may change. IEEE 802.1AS-2020 10.3.17, 10.3.18
 // and 11.2.21: SyncIntervalSetting, AnnounceIntervalSetting and LinkDelayIntervalSetting.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/neighbor_rate_ratio.hpp"
 
 #include <algorithm>

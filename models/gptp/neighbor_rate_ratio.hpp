@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // neighborRateRatio: how fast the neighbour's clock runs against one's own.
 #pragma once
 

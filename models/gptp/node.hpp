@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All of gPTP in one node: the delay mechanism of each port and the PTP instances (domains) that share it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/port_selection.hpp"
 
 namespace takt::models::gptp {

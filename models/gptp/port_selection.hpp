@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Best timeTransmitter selection as a pure function: from what each port knows to its role, IEEE 802.1AS-2020 10.3.13.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who is better: system identities and priority vectors, IEEE 802.1AS-2020 10.3.2 to 10.3.5.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/ptp_instance.hpp"
 
 #include <algorithm>

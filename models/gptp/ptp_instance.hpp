@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A PTP instance: one domain in one node, all its ports. IEEE 802.1AS-2020 clause 10 (BMCA, Announce, Sync) and 11
 // (two- and one-step).
 #pragma once

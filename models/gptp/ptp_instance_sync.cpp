@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How time passes through an instance: Sync in, Sync out, and what happens without it.
 #include <algorithm>
 

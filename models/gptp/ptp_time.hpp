@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Times as they stand in PTP messages, and what they are in picoseconds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast the ratio between the grandmaster's clock and one's own changes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // gPTP in a simulated node: gives the machines of node.hpp their timers, their frames and their timestamps, and
 // disciplines the node's clock with what they find out.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a node takes part in gPTP, as plain data.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a Sync brings, on its way through a node: the arithmetic of MDSyncReceive and MDSyncSend, IEEE
 // 802.1AS-2020 11.2.14 and 11.2.15.
 #pragma once

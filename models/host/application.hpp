@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a program on a host is to the network: the interface to which protocol code is adapted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cores of a host and the threads that share them: preemptive scheduling by deadlines, fixed priorities and fair
 // shares.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A periodic load of a processor: work that other programs of the host do, of which nothing else is known.
 #pragma once
 

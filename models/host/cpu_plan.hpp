@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processor of a host as plain data: its cores, the threads that share them, and what runs on which thread.
 #pragma once
 

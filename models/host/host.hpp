@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The receiving side of a host: from the network interface to listeners and applications.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The way from the programs of a host to its network interfaces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The time that an operating system takes between a program and the wire.
 #pragma once
 

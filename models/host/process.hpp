@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An application on a simulated host: its alarms, its way to the network interface.
 #pragma once
 

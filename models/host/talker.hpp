@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A source of frames without protocol: periodic, random, in bursts or from a table of times.
 #pragma once
 

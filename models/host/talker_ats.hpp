@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asynchronous traffic shaping at the talker: what an end station sends gets its eligibility time where it comes to the
 // network interface. Each stream has a scheduler of its own, alone in its group (IEEE 802.1Q clause 8.6.5.6: a talker's
 // stream comes by no reception port that it would share with others), and no maximum residence time: its own host has

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Asynchronous traffic shaping (IEEE 802.1Q clauses 8.6.5.6 and 8.6.11, formerly Qcr): from when may a frame be sent?
 //
 // Arithmetic is exact. A bit of the committed information rate rarely lasts a whole number of picoseconds, so the

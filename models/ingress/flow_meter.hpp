@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The flow meter of per-stream filtering and policing (IEEE 802.1Q clause 8.6.5.5, the bandwidth profile of MEF 10.3):
 // two rates, three colours.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a frame passes between the medium and the filtering database: the seam for stream identification, individual
 // recovery, stream filters, stream gates, meters and ATS schedulers (IEEE 802.1Q clause 8.6.5, IEEE 802.1CB clause 8).
 #pragma once

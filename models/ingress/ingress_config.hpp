@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a bridge does to frames between the medium and its filtering database, as management sets it: stream
 // identification, FRER, per-stream filtering and policing, ATS. Plain data; IngressPipeline is what lives.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ingress chain of a bridge: everything that the standards place between the medium and the queues and that knows
 // streams.
 //

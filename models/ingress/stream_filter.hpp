@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stream filter instance table of per-stream filtering and policing (IEEE 802.1Q clause 8.6.5.3, formerly Qci):
 // which gate, meter and scheduler does a frame meet, and is it too long?
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/ingress/stream_gate.hpp"
 
 namespace takt::models {

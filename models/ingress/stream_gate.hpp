@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stream gate instance (IEEE 802.1Q clause 8.6.5.4): its schedule, the octets of the present interval, and what
 // closes it for good.
 #pragma once

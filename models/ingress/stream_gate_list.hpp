@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stream gate of per-stream filtering and policing (IEEE 802.1Q clauses 8.6.5.4 and 8.6.10): open or closed, with an
 // internal priority value, on the same cyclic time as a transmission gate.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Passive stream identification (IEEE 802.1CB clauses 6 and 9.1, IEEE 802.1CBdb): which stream does a frame belong to?
 #pragma once
 

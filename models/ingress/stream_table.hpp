@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stream identity table of a bridge, laid out for speed: a frame of a stream that is known by its address is found
 // with one look at a hash table; only entries of other kinds build a header.
 #pragma once

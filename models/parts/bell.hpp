@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wakes a waiting part when another part has posted something for it.
 #pragma once
 

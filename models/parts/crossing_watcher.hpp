@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who follows frames over the cuts of a divided run.
 #pragma once
 

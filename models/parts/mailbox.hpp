@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames on their way from one part of a divided run to another, and until when no more of them will come.
 #pragma once
 

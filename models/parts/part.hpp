@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A part of a divided run: a network of which only some nodes act, and the mail between it and the other parts.
 //
 // Parts synchronise as Chandy and Misra proposed (conservatively, by promises instead of barriers): a part goes on to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which nodes of a network act. A run on several threads has several networks that are alike, and each node acts in one
 // of them.
 #pragma once

@@ -1,5 +1,6 @@
-// Dependencies point one way (ARCHITECTURE.md, "The map"): who may include whom, heavy headers, and what the deterministic
-// layers must not use.
+// SPDX-License-Identifier: Apache-2.0
+// Dependencies point one way (ARCHITECTURE.md, "The map"): who may include whom, heavy headers, and what the
+// deterministic layers must not use.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +19,8 @@ const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/octets.hpp", "sim/c
 /// Draws are values; what draws them here draws them on a real node, too.
 const Prefixes chance = {"sim/random.hpp", "sim/distribution.hpp"};
 const Prefixes models = {"models/"};
-const Prefixes protocol = {"security/", "wire/", "uadp/", "pubsub/", "program/", "handshake/", "dds/", "gateway/", "opcua/"};
+const Prefixes protocol = {"security/",  "wire/", "uadp/",    "pubsub/", "program/",
+                           "handshake/", "dds/",  "gateway/", "opcua/"};
 const Prefixes scenario = {"scenario/"};
 const Prefixes json = {"json/"};
 const Prefixes questions = {"analysis/", "explore/", "schedule_check/", "synthesis/", "verify/"};
@@ -38,7 +40,7 @@ const Prefixes interchange = {"interchange/"};
 const Prefixes report = {"report/"};
 const Prefixes studio = {"studio/"};
 const Prefixes schedule = {"schedule/"};
-const Prefixes interchange_schedules = {"interchange/schedules/"};
+const Prefixes interchange_schedules = {"schedule_instances/"};
 
 Prefixes all_of(std::initializer_list<Prefixes> parts) {
   Prefixes sum;
@@ -56,49 +58,71 @@ const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = [] {
     std::vector<Layer> list = {{"sim/", kernel}, {"models/", all_of({kernel, models})}};
     for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
-    list.push_back({"src/plant/", all_of({base, protocol, plant, json})});
-    list.push_back({"src/application/", all_of({base, chance, json, protocol, plant, application})});
-    list.push_back({"src/node/", all_of({base, chance, protocol, plant, application, node, json})});
-    list.push_back({"src/json/", all_of({base, json})});
-    list.push_back({"src/results/", all_of({base, json, results})});
-    list.push_back({"src/schedule/", all_of({base, chance, schedule})});
-    list.push_back({"src/interchange/schedules/", all_of({base, json, schedule, interchange_schedules, {"interchange/xml/"}})});
+    list.push_back({"src/foundation/plant/", all_of({base, protocol, plant, json})});
+    list.push_back({"src/foundation/application/", all_of({base, chance, json, protocol, plant, application})});
+    list.push_back({"src/device/node/", all_of({base, chance, protocol, plant, application, node, json})});
+    list.push_back({"src/foundation/json/", all_of({base, json})});
+    list.push_back({"src/simulation/results/", all_of({base, json, results})});
+    list.push_back({"src/foundation/schedule/", all_of({base, chance, schedule})});
+    list.push_back(
+        {"src/foundation/schedule_instances/", all_of({base, json, schedule, interchange_schedules, {"interchange/xml/"}})});
     const Prefixes below = all_of({schedule, kernel, models, protocol, plant, application, json, results, scenario});
-    list.push_back({"src/scenario/", below});
-    list.push_back({"src/explain/", all_of({below, explain})});
+    list.push_back({"src/simulation/scenario/", below});
+    list.push_back({"src/simulation/explain/", all_of({below, explain})});
     // Beside the questions, but its points are results as result.json has them, and its report is drawn.
-    list.push_back({"src/study/", all_of({below, questions, evaluation, explain, output, chart, interchange_schedules, study})});
+    list.push_back(
+        {"src/experiments/study/", all_of({below, questions, evaluation, explain, output, chart, interchange_schedules, study})});
     // A proof is put into words in one place, for instances and for scenarios.
-    list.push_back({"src/synthesis/", all_of({below, questions, evaluation, explain, {"interchange/schedules/proof.hpp"}})});
-    for (const std::string& folder : questions) list.push_back({"src/" + folder, all_of({below, questions, evaluation, explain})});
-    list.push_back({"src/evaluation/", all_of({below, evaluation})});
-    list.push_back({"src/output/", all_of({below, questions, evaluation, explain, output})});
-    list.push_back({"src/chart/", chart});
-    list.push_back({"src/report/", all_of({below, questions, evaluation, explain, output, chart, report})});
-    list.push_back({"src/papers/", all_of({below, questions, evaluation, chart, report, papers})});
-    list.push_back({"src/property/", all_of({below, questions, evaluation, output, {"property/"}})});
-    list.push_back({"src/interchange/", all_of({below, chart, interchange, {"schedule_check/"}})});
-    list.push_back({"src/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/python/", all_of({below, questions, study, evaluation, explain, output, chart, report, interchange_schedules, {"python/"}})});
-    list.push_back({"src/studio/", all_of({below, questions, study, evaluation, explain, output, chart, report, studio})});
-    list.push_back({"src/cli/", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
-    list.push_back({"src/main.cpp", all_of({below, questions, study, evaluation, explain, output, node, emulate, report, studio, papers, interchange, cli})});
+    list.push_back(
+        {"src/questions/synthesis/", all_of({below, questions, evaluation, explain, {"schedule_instances/proof.hpp"}})});
+    for (const std::string& folder : questions)
+      list.push_back({"src/" + folder, all_of({below, questions, evaluation, explain})});
+    list.push_back({"src/simulation/evaluation/", all_of({below, evaluation})});
+    list.push_back({"src/presentation/output/", all_of({below, questions, evaluation, explain, output})});
+    list.push_back({"src/presentation/chart/", chart});
+    list.push_back({"src/presentation/report/", all_of({below, questions, evaluation, explain, output, chart, report})});
+    list.push_back({"src/experiments/papers/", all_of({below, questions, evaluation, chart, report, papers})});
+    list.push_back({"src/experiments/property/", all_of({below, questions, evaluation, output, {"property/"}})});
+    list.push_back({"src/exchange/interchange/", all_of({below, chart, interchange, {"schedule_check/"}})});
+    list.push_back({"src/device/emulate/", all_of({below, node, emulate})});
+    list.push_back({"src/frontends/python/", all_of({below,
+                                           questions,
+                                           study,
+                                           evaluation,
+                                           explain,
+                                           output,
+                                           chart,
+                                           report,
+                                           interchange_schedules,
+                                           {"python/"}})});
+    list.push_back(
+        {"src/frontends/studio/", all_of({below, questions, study, evaluation, explain, output, chart, report, studio})});
+    list.push_back({"src/frontends/cli/", all_of({below, questions, study, evaluation, explain, output, node, emulate, report,
+                                        studio, papers, interchange, cli})});
+    list.push_back({"src/frontends/main.cpp", all_of({below, questions, study, evaluation, explain, output, node, emulate, report,
+                                            studio, papers, interchange, cli})});
     return list;
   }();
   return all;
 }
 
 const Layer* layer_of(const std::string& path) {
-  const auto found = std::find_if(layers().begin(), layers().end(), [&](const Layer& layer) { return is_below(path, layer.folder); });
+  const auto found =
+      std::find_if(layers().begin(), layers().end(), [&](const Layer& layer) { return is_below(path, layer.folder); });
   return found == layers().end() ? nullptr : &*found;
 }
 
 bool starts_with_any(const std::string& text, const Prefixes& prefixes) {
-  return std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) { return text.starts_with(prefix); });
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-bool is_protocol(const SourceFile& file) { return file.path.starts_with("src/") && starts_with_any(file.path.substr(4), protocol); }
-bool is_deterministic(const SourceFile& file) { return is_below(file.path, "sim/") || is_below(file.path, "models/") || is_protocol(file); }
+bool is_protocol(const SourceFile& file) {
+  return file.path.starts_with("src/") && starts_with_any(file.path.substr(4), protocol);
+}
+bool is_deterministic(const SourceFile& file) {
+  return is_below(file.path, "sim/") || is_below(file.path, "models/") || is_protocol(file);
+}
 
 std::vector<SourceFile> product() {
   std::vector<SourceFile> files = files_below({"sim", "models", "src"});
@@ -107,7 +131,18 @@ std::vector<SourceFile> product() {
 }
 
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel, models, protocol, json, scenario, questions, results, evaluation, explain, output, cli, node, emulate, plant, application, chart, report, studio, papers, study, schedule, interchange_schedules, interchange, {"property/", "python/"}});
+  static const std::vector<std::string> roots = all_of({kernel,      models,
+                                                        protocol,    json,
+                                                        scenario,    questions,
+                                                        results,     evaluation,
+                                                        explain,     output,
+                                                        cli,         node,
+                                                        emulate,     plant,
+                                                        application, chart,
+                                                        report,      studio,
+                                                        papers,      study,
+                                                        schedule,    interchange_schedules,
+                                                        interchange, {"property/", "python/"}});
   return roots;
 }
 
@@ -147,7 +182,9 @@ TEST(Includes, OurHeadersAreNamedFromTheRootOrFromSrc) {
 TEST(Includes, OpenSslIsSeenBySecurityOnly) {
   for (const SourceFile& file : product())
     for (const Include& include : includes_of(file))
-      EXPECT_TRUE(!include.target.starts_with("openssl/") || (is_below(file.path, "src/security/") && !file.is_header())) << file.path << ":" << include.line << ": " << include.target;
+      EXPECT_TRUE(!include.target.starts_with("openssl/") ||
+                  (is_below(file.path, "src/protocol/security/") && !file.is_header()))
+          << file.path << ":" << include.line << ": " << include.target;
 }
 
 TEST(Includes, HeavyHeadersStayInCppFiles) {
@@ -155,7 +192,8 @@ TEST(Includes, HeavyHeadersStayInCppFiles) {
   for (const SourceFile& file : product()) {
     if (!file.is_header()) continue;
     for (const Include& include : includes_of(file))
-      EXPECT_FALSE(starts_with_any(include.target, heavy)) << file.path << ":" << include.line << ": " << include.target;
+      EXPECT_FALSE(starts_with_any(include.target, heavy))
+          << file.path << ":" << include.line << ": " << include.target;
   }
 }
 
@@ -170,7 +208,8 @@ void expect_free_of(const SourceFile& file, const std::vector<Forbidden>& forbid
     if (std::string_view(one.why) == "threads" && is_below(file.path, "models/parts/")) continue;
     const std::regex pattern(one.pattern);
     for (std::size_t i = 0; i < file.code.size(); ++i)
-      EXPECT_FALSE(std::regex_search(file.code[i], pattern)) << file.path << ":" << i + 1 << ": " << one.why << "\n  " << file.lines[i];
+      EXPECT_FALSE(std::regex_search(file.code[i], pattern))
+          << file.path << ":" << i + 1 << ": " << one.why << "\n  " << file.lines[i];
   }
 }
 
@@ -183,7 +222,8 @@ TEST(Determinism, NothingBelowReadsTheWorld) {
       {R"(unordered_(map|set|multimap|multiset))", "a container without an order"},
       {R"(std::hash\b|uintptr_t)", "the value of a pointer"},
       {R"(std::(this_)?j?thread|std::mutex|std::atomic)", "threads"},
-      {R"(\bstatic\s+(?!constexpr|const\b|inline|_)[A-Za-z_:<>0-9]+\s+\w+\s*(=|;|\{))", "state that outlives a simulation"},
+      {R"(\bstatic\s+(?!constexpr|const\b|inline|_)[A-Za-z_:<>0-9]+\s+\w+\s*(=|;|\{))",
+       "state that outlives a simulation"},
   };
   for (const SourceFile& file : product())
     if (is_deterministic(file)) expect_free_of(file, forbidden);
@@ -191,7 +231,8 @@ TEST(Determinism, NothingBelowReadsTheWorld) {
 
 // Events are decided without libm: its results differ between machines.
 TEST(Determinism, NoLibmBelow) {
-  const std::vector<Forbidden> forbidden = {{R"(std::(exp|log|log1p|expm1|pow|sin|cos|tan|atan2?|cbrt|erfc?|tgamma|lgamma)\s*\()", "libm"}};
+  const std::vector<Forbidden> forbidden = {
+      {R"(std::(exp|log|log1p|expm1|pow|sin|cos|tan|atan2?|cbrt|erfc?|tgamma|lgamma)\s*\()", "libm"}};
   for (const SourceFile& file : product())
     if (is_deterministic(file)) expect_free_of(file, forbidden);
 }
@@ -201,7 +242,8 @@ TEST(Protocol, HasNoInputOrOutput) {
   const std::regex io(R"(<(iostream|fstream|cstdio|filesystem|sys/.*|netinet/.*|arpa/.*|unistd\.h|thread|mutex)>)");
   for (const SourceFile& file : product()) {
     if (!is_protocol(file)) continue;
-    for (std::size_t i = 0; i < file.lines.size(); ++i) EXPECT_FALSE(std::regex_search(file.lines[i], io)) << file.path << ":" << i + 1;
+    for (std::size_t i = 0; i < file.lines.size(); ++i)
+      EXPECT_FALSE(std::regex_search(file.lines[i], io)) << file.path << ":" << i + 1;
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the pages of the repository point at is there: files, and sections of them.
 #include <gtest/gtest.h>
 
@@ -30,8 +31,10 @@ std::vector<std::string> prose_of(const fs::path& page) {
   std::ifstream file(page);
   bool in_example = false;
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("```")) in_example = !in_example;
-    else if (!in_example) lines.push_back(line);
+    if (line.starts_with("```"))
+      in_example = !in_example;
+    else if (!in_example)
+      lines.push_back(line);
   }
   return lines;
 }
@@ -40,8 +43,10 @@ std::vector<std::string> prose_of(const fs::path& page) {
 std::string anchor_of(const std::string& heading) {
   std::string anchor;
   for (const char c : heading) {
-    if (c == ' ' || c == '-') anchor += '-';
-    else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c == ' ' || c == '-')
+      anchor += '-';
+    else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_')
+      anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return anchor;
 }
@@ -49,7 +54,8 @@ std::string anchor_of(const std::string& heading) {
 std::set<std::string> anchors_of(const fs::path& page) {
   std::set<std::string> anchors;
   for (const std::string& line : prose_of(page))
-    if (line.starts_with('#') && line.find(' ') != std::string::npos) anchors.insert(anchor_of(line.substr(line.find(' ') + 1)));
+    if (line.starts_with('#') && line.find(' ') != std::string::npos)
+      anchors.insert(anchor_of(line.substr(line.find(' ') + 1)));
   return anchors;
 }
 
@@ -58,7 +64,8 @@ TEST(Links, PointAtSomething) {
   std::size_t seen = 0;
   for (const fs::path& page : pages()) {
     for (const std::string& line : prose_of(page)) {
-      for (auto match = std::sregex_iterator(line.begin(), line.end(), link); match != std::sregex_iterator(); ++match) {
+      for (auto match = std::sregex_iterator(line.begin(), line.end(), link); match != std::sregex_iterator();
+           ++match) {
         const std::string target = (*match)[1];
         if (target.find("://") != std::string::npos) continue;
         ++seen;
@@ -66,7 +73,8 @@ TEST(Links, PointAtSomething) {
         const fs::path file = mark == 0 ? page : page.parent_path() / target.substr(0, mark);
         ASSERT_TRUE(fs::exists(file)) << fs::relative(page, root) << " points at " << target;
         if (mark != std::string::npos) {
-          EXPECT_TRUE(anchors_of(file).contains(target.substr(mark + 1))) << fs::relative(page, root) << " points at " << target;
+          EXPECT_TRUE(anchors_of(file).contains(target.substr(mark + 1)))
+              << fs::relative(page, root) << " points at " << target;
         }
       }
     }

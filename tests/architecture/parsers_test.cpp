@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Everything that reads octets of others is in the list of docs/security.md, with a fuzz target that there is.
 #include <gtest/gtest.h>
 
@@ -22,7 +23,8 @@ struct Row {
 std::vector<std::string> quoted(const std::string& text) {
   static const std::regex word("`([^`]+)`");
   std::vector<std::string> all;
-  for (auto match = std::sregex_iterator(text.begin(), text.end(), word); match != std::sregex_iterator(); ++match) all.push_back((*match)[1]);
+  for (auto match = std::sregex_iterator(text.begin(), text.end(), word); match != std::sregex_iterator(); ++match)
+    all.push_back((*match)[1]);
   return all;
 }
 
@@ -35,7 +37,8 @@ std::vector<Row> listed() {
     if (line.starts_with("## ")) is_there = line == "## What parses octets";
     std::smatch match;
     if (!is_there || !std::regex_match(line, match, row)) continue;
-    for (const std::string& folder : quoted(match[1])) rows.push_back({folder, match[2] == "none" ? std::vector<std::string>{"none"} : quoted(match[2])});
+    for (const std::string& folder : quoted(match[1]))
+      rows.push_back({folder, match[2] == "none" ? std::vector<std::string>{"none"} : quoted(match[2])});
   }
   return rows;
 }
@@ -46,7 +49,9 @@ TEST(Parsers, AreListedWithTheirFuzzTargets) {
   for (const Row& row : rows) {
     EXPECT_TRUE(fs::exists(root / row.folder)) << row.folder;
     EXPECT_FALSE(row.targets.empty()) << row.folder;
-    for (const std::string& target : row.targets) EXPECT_TRUE(target == "none" || fs::exists(root / "tests/fuzz" / (target + "_fuzz.cpp"))) << row.folder << ": " << target;
+    for (const std::string& target : row.targets)
+      EXPECT_TRUE(target == "none" || fs::exists(root / "tests/fuzz" / (target + "_fuzz.cpp")))
+          << row.folder << ": " << target;
   }
   const std::regex reads(R"(\b[A-Za-z:]*Reader(<[A-Za-z:]+>)? [a-z_]+[({]|::recv\(|::recvmsg\(|::recvfrom\()");
   std::size_t seen = 0;
@@ -57,7 +62,8 @@ TEST(Parsers, AreListedWithTheirFuzzTargets) {
     ++seen;
     bool is_listed = false;
     for (const Row& row : rows) is_listed = is_listed || is_below(file.path, row.folder);
-    EXPECT_TRUE(is_listed) << file.path << " reads octets: name it in docs/security.md, \"What parses octets\", with its fuzz target";
+    EXPECT_TRUE(is_listed)
+        << file.path << " reads octets: name it in docs/security.md, \"What parses octets\", with its fuzz target";
   }
   EXPECT_GE(seen, 20u) << "the test still finds them";
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "source_tree.hpp"
 
 #include <algorithm>
@@ -40,7 +41,8 @@ std::string code_of(const std::string& line, bool& in_comment) {
       in_comment = true;
       ++i;
     } else {
-      const bool is_digit_separator = line[i] == '\'' && i > 0 && std::isxdigit(static_cast<unsigned char>(line[i - 1])) != 0;
+      const bool is_digit_separator =
+          line[i] == '\'' && i > 0 && std::isxdigit(static_cast<unsigned char>(line[i - 1])) != 0;
       if (line[i] == '"' || (line[i] == '\'' && !is_digit_separator)) quote = line[i];
       code += line[i];
     }
@@ -81,7 +83,8 @@ std::vector<Include> includes_of(const SourceFile& file) {
     if (!line.starts_with("#include")) continue;
     const std::size_t first = line.find_first_of("\"<");
     const std::size_t last = line.find_last_of("\">");
-    if (first != std::string_view::npos && last > first) includes.push_back({std::string(line.substr(first + 1, last - first - 1)), i + 1});
+    if (first != std::string_view::npos && last > first)
+      includes.push_back({std::string(line.substr(first + 1, last - first - 1)), i + 1});
   }
   return includes;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The source tree as the architecture tests see it: files and their lines.
 #pragma once
 
@@ -8,9 +9,9 @@
 namespace takt::architecture {
 
 struct SourceFile {
-  std::string path;                 ///< from the root of the repository, with '/'
-  std::vector<std::string> lines;   ///< as written
-  std::vector<std::string> code;    ///< the same with comments and the contents of strings taken out
+  std::string path;                ///< from the root of the repository, with '/'
+  std::vector<std::string> lines;  ///< as written
+  std::vector<std::string> code;   ///< the same with comments and the contents of strings taken out
   bool is_header() const { return path.ends_with(".hpp"); }
   bool is_cpp() const { return is_header() || path.ends_with(".cpp"); }
 };
@@ -20,7 +21,7 @@ std::vector<SourceFile> files_below(const std::vector<std::string>& folders);
 
 /// One #include of a file.
 struct Include {
-  std::string target;               ///< without quotes or brackets
+  std::string target;  ///< without quotes or brackets
   std::size_t line = 0;
 };
 std::vector<Include> includes_of(const SourceFile& file);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What every file and folder of the tree looks like.
 #include <gtest/gtest.h>
 
@@ -33,7 +34,8 @@ TEST(Tree, EveryFolderHasAReadme) {
 }
 
 TEST(Tree, NoFileHoldsTooMuch) {
-  for (const SourceFile& file : everything()) EXPECT_LE(file.lines.size(), most_lines) << file.path << ": a file of this length holds two concepts";
+  for (const SourceFile& file : everything())
+    EXPECT_LE(file.lines.size(), most_lines) << file.path << ": a file of this length holds two concepts";
 }
 
 TEST(Tree, NoTabsAndNoSpacesAtTheEnds) {
@@ -41,7 +43,8 @@ TEST(Tree, NoTabsAndNoSpacesAtTheEnds) {
     for (std::size_t i = 0; i < file.lines.size(); ++i) {
       const std::string& line = file.lines[i];
       EXPECT_EQ(line.find('\t'), std::string::npos) << file.path << ":" << i + 1 << ": a tab";
-      EXPECT_FALSE(line.ends_with(' ') || line.ends_with('\r')) << file.path << ":" << i + 1 << ": space at the end of the line";
+      EXPECT_FALSE(line.ends_with(' ') || line.ends_with('\r'))
+          << file.path << ":" << i + 1 << ": space at the end of the line";
     }
   }
 }
@@ -64,18 +67,32 @@ TEST(Tree, EveryFileOfTheProductSaysWhatItIs) {
 
 // An exception that leaves a thread ends the process without a message: threads begin where it is caught and handed on.
 TEST(Tree, ThreadsBeginWhereExceptionsAreCaught) {
-  const std::vector<std::string> catching = {"src/node/applications/thread_group.hpp", "src/node/applications/thread_group.cpp", "src/node/server/name_lookup.cpp", "src/verify/probe.cpp", "src/papers/validation/measure.cpp", "src/schedule/search.cpp", "src/scenario/run/divided_run.cpp", "src/studio/engine.hpp", "src/studio/engine.cpp", "src/studio/command.hpp", "src/studio/command.cpp", "src/cli/studio_command.cpp"};
+  const std::vector<std::string> catching = {"src/device/node/applications/thread_group.hpp",
+                                             "src/device/node/applications/thread_group.cpp",
+                                             "src/device/node/server/name_lookup.cpp",
+                                             "src/questions/verify/probe.cpp",
+                                             "src/experiments/papers/validation/measure.cpp",
+                                             "src/foundation/schedule/search.cpp",
+                                             "src/simulation/scenario/division/divided_run.cpp",
+                                             "src/frontends/studio/engine.hpp",
+                                             "src/frontends/studio/engine.cpp",
+                                             "src/frontends/studio/command.hpp",
+                                             "src/frontends/studio/command.cpp",
+                                             "src/frontends/cli/studio_command.cpp"};
   for (const SourceFile& file : files_below({"sim", "models", "src"})) {
     if (std::find(catching.begin(), catching.end(), file.path) != catching.end()) continue;
     for (std::size_t i = 0; i < file.code.size(); ++i)
-      for (const char* const thread : {"std::jthread", "std::async", "pthread_create", "std::thread(", "std::thread ", "std::thread>"})
-        EXPECT_EQ(file.code[i].find(thread), std::string::npos) << file.path << ":" << i + 1 << ": " << thread << "; ThreadGroup catches what a thread throws";
+      for (const char* const thread :
+           {"std::jthread", "std::async", "pthread_create", "std::thread(", "std::thread ", "std::thread>"})
+        EXPECT_EQ(file.code[i].find(thread), std::string::npos)
+            << file.path << ":" << i + 1 << ": " << thread << "; ThreadGroup catches what a thread throws";
   }
 }
 
 // The tree stands for itself: nothing names a place on the machine on which it was written.
 TEST(Tree, NoPlacesOutsideTheTree) {
-  const std::vector<std::string> outside = {std::string("/wo") + "rk/", std::string("../sha") + "red", std::string("/ro") + "ot/", std::string("/ho") + "me/"};
+  const std::vector<std::string> outside = {std::string("/wo") + "rk/", std::string("../sha") + "red",
+                                            std::string("/ro") + "ot/", std::string("/ho") + "me/"};
   for (const SourceFile& file : files_below({"sim", "models", "src", "tests", "tools", "cmake", "docs"}))
     for (std::size_t i = 0; i < file.lines.size(); ++i)
       for (const std::string& place : outside)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Builds the simulator with other compilers and levels of optimisation and compares the digests of the shipped scenarios.
 
 usage: across_builds.py SOURCE BUILD_FOLDER TAKT_DIGEST

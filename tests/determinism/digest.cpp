@@ -1,10 +1,12 @@
-// Runs a scenario and prints its digest and the number of its events: what builds of takt are compared by, without the commands around it.
+// SPDX-License-Identifier: Apache-2.0
+// Runs a scenario and prints its digest and the number of its events: what builds of takt are compared by, without the
+// commands around it.
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "evaluation/evaluate.hpp"
-#include "scenario/resolve/resolve.hpp"
+#include "scenario/resolve.hpp"
 #include "scenario/run/run.hpp"
 
 int main(int argc, char** argv) {
@@ -13,7 +15,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   takt::json::Diagnostics diagnostics;
-  const auto resolved = takt::scenario::load_file(argv[1], {"/duration=" + std::string(argv[2]), "/seed=" + std::string(argv[3])}, diagnostics);
+  const auto resolved = takt::scenario::load_file(
+      argv[1], {"/duration=" + std::string(argv[2]), "/seed=" + std::string(argv[3])}, diagnostics);
   if (!resolved) {
     std::fputs(diagnostics.to_text().c_str(), stderr);
     return 2;
@@ -21,6 +24,7 @@ int main(int argc, char** argv) {
   takt::scenario::Run run(*resolved);
   run.advance();
   const takt::results::RunResult result = takt::evaluation::evaluate(run, false);
-  std::printf("%016llx %llu\n", static_cast<unsigned long long>(result.digest), static_cast<unsigned long long>(result.events));
+  std::printf("%016llx %llu\n", static_cast<unsigned long long>(result.digest),
+              static_cast<unsigned long long>(result.events));
   return 0;
 }

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Builds the tests of models, scenarios and properties with AddressSanitizer and UndefinedBehaviorSanitizer, and runs them in short form.
 
 usage: sanitized_tests.py SOURCE BUILD_FOLDER TAKT_DIGEST

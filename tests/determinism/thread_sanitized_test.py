@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Builds the tests of divided runs with ThreadSanitizer and runs them: parts of a run share nothing but their mailboxes, and what is recorded is written while they stand still.
 
 usage: thread_sanitized_test.py SOURCE BUILD_FOLDER

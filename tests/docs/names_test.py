@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Comments and documents name no source file and no test, and READMEs no function, that is not there.
 
 usage: names_test.py SOURCE
@@ -17,7 +18,7 @@ TEST = re.compile(r"^TEST(?:_[FP])?\((\w+), *(\w+)", re.M)
 CODE = (".cpp", ".hpp", ".inc", ".py", ".ts", ".mjs", ".cmake")
 COMMENT = re.compile(r"//.*|#.*")
 # Placeholders of instructions, by the file that has them.
-EXAMPLES = {("cmake/takt.cmake", name) for name in ("a.cpp", "b.cpp", "a_test.cpp", "main.cpp", "command.cpp")} | {("src/cli/CMakeLists.txt", "command.cpp")}
+EXAMPLES = {("cmake/takt.cmake", name) for name in ("a.cpp", "b.cpp", "a_test.cpp", "main.cpp", "command.cpp")} | {("src/frontends/cli/CMakeLists.txt", "command.cpp")}
 
 
 def files(root):

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Blocks of the pages that show what takt prints, found by the comment above them, held against the program and renewed from it.
 
 A comment stands on the line above its block, and readers of the page do not see it:

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Every block of the pages that shows what takt prints is what it prints now. Renewal: tests/docs/renew.py.
 
 usage: outputs_test.py TAKT SOURCE_FOLDER [unittest options]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The documentation: every command in it is one that takt takes, cheap ones are run.
 
 usage: pages_test.py TAKT SOURCE_FOLDER [unittest options]
@@ -19,16 +20,16 @@ TAKT = ""
 SOURCE = pathlib.Path()
 # Not run here, by what they begin with, and why. All else that stands in the pages is.
 NOT_RUN = {
-    "takt node": "runs until it is stopped, on interfaces of the machine: tests/node",
-    "takt ctl": "speaks to a node that runs: tests/node",
-    "takt emulate": "takes network namespaces, and so privileges: tests/emulate",
-    "takt studio": "serves until it is stopped: tests/studio",
-    "takt paper": "takes minutes: tests/papers and takt_paper_command_test",
-    "takt study scenarios/studies/slaves-hops-cycle.json --out all.sqlite": "goes on with what was merged: tests/study",
-    "takt study merge": "takes the parts of several machines: tests/study",
-    "takt explore --slaves 2 --faults": "takes minutes of a processor: tests/explore",
-    "takt explore --slaves 1 --nested --faults": "takes minutes of a processor: tests/explore",
-    "takt explore --slaves 1 --nested --candidates": "takes minutes of a processor: tests/explore",
+    "takt node": "runs until it is stopped, on interfaces of the machine: tests/device/node",
+    "takt ctl": "speaks to a node that runs: tests/device/node",
+    "takt emulate": "takes network namespaces, and so privileges: tests/device/emulate",
+    "takt studio": "serves until it is stopped: tests/frontends/studio",
+    "takt paper": "takes minutes: tests/experiments/papers and takt_paper_command_test",
+    "takt study scenarios/studies/slaves-hops-cycle.json --out all.sqlite": "goes on with what was merged: tests/experiments/study",
+    "takt study merge": "takes the parts of several machines: tests/experiments/study",
+    "takt explore --slaves 2 --faults": "takes minutes of a processor: tests/questions/explore",
+    "takt explore --slaves 1 --nested --faults": "takes minutes of a processor: tests/questions/explore",
+    "takt explore --slaves 1 --nested --candidates": "takes minutes of a processor: tests/questions/explore",
 }
 if os.environ.get("TAKT_TIER") == "quick":
     reason = "takes minutes of a processor: it runs in the full tier"

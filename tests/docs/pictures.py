@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The picture of the README: simulated, worst found and bound of each requirement, as parts of its limit.
 
 tests/docs/renew.py draws it; tests/docs/outputs_test.py holds it against what the program says now.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Counts what makes documents and sources hard to read. The counts are a ratchet: they may fall, never rise.
 
 usage: prose.py SOURCE [--renew]

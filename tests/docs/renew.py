@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Renews every block of the pages that shows what takt prints, and the picture of the README.
 
 For a change that is meant to change them.

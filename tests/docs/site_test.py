@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """tools/docs makes a site of the pages: all of them, with search and next steps; broken links are refused.
 
 usage: site_test.py SOURCE_FOLDER [unittest options]; exit status 77 without mkdocs

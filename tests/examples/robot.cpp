@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A robot as a slave: it goes half of the way to its target in each cycle and says where it is.
 //
 //   robot NODE.json      the file of the node, as takt node reads it; "targets" and "actual" are its data sets

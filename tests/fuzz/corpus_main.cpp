@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stands in for libFuzzer: each file of a folder as it is, then with mutations that are the same in every run.
 //
 // usage: takt_corpus_NAME_test FOLDER [MUTATIONS OF A FILE]
@@ -27,12 +28,21 @@ void feed(const Octets& octets) {
 Octets mutated(Octets octets, takt::sim::RandomStream& chance) {
   for (std::uint64_t left = 1 + chance.below(4); left > 0 && !octets.empty(); --left) {
     const auto at = octets.begin() + static_cast<std::ptrdiff_t>(chance.below(octets.size()));
-    const auto end = at + static_cast<std::ptrdiff_t>(1 + chance.below(std::min<std::uint64_t>(8, static_cast<std::uint64_t>(octets.end() - at))));
+    const auto end = at + static_cast<std::ptrdiff_t>(1 + chance.below(std::min<std::uint64_t>(
+                                                              8, static_cast<std::uint64_t>(octets.end() - at))));
     switch (chance.below(5)) {
-      case 0: *at = static_cast<std::uint8_t>(chance.below(256)); break;
-      case 1: *at ^= static_cast<std::uint8_t>(1U << chance.below(8)); break;
-      case 2: std::fill(at, end, static_cast<std::uint8_t>(chance.below(2) == 0 ? 0 : 0xFF)); break;
-      case 3: octets.erase(at, end); break;
+      case 0:
+        *at = static_cast<std::uint8_t>(chance.below(256));
+        break;
+      case 1:
+        *at ^= static_cast<std::uint8_t>(1U << chance.below(8));
+        break;
+      case 2:
+        std::fill(at, end, static_cast<std::uint8_t>(chance.below(2) == 0 ? 0 : 0xFF));
+        break;
+      case 3:
+        octets.erase(at, end);
+        break;
       default: {
         const Octets twice(at, end);
         octets.insert(at, twice.begin(), twice.end());

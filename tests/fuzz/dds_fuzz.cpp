@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any octets as an RTPS message: neither crash nor hang; what is understood survives a round trip.
 #include <vector>
 
@@ -52,10 +53,12 @@ std::vector<std::byte> canonical(dds::Octets octets) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::vector<std::byte> once = canonical(std::as_bytes(std::span(data, size)));
-  if (once.empty() || dds::MessageDecoder(std::as_bytes(std::span(data, size))).verdict() != dds::MessageStatus::ok) return 0;
+  if (once.empty() || dds::MessageDecoder(std::as_bytes(std::span(data, size))).verdict() != dds::MessageStatus::ok)
+    return 0;
   dds::MessageDecoder again(once);
   while (again.next()) continue;
-  TAKT_CHECK(again.verdict() == dds::MessageStatus::ok && again.skipped() == 0, "what was understood is sound when written again");
+  TAKT_CHECK(again.verdict() == dds::MessageStatus::ok && again.skipped() == 0,
+             "what was understood is sound when written again");
   TAKT_CHECK(canonical(once) == once, "the canonical form is its own canonical form");
   return 0;
 }

@@ -1,5 +1,7 @@
-// Any octets as the files of every import: neither crash nor hang, and what is refused has a diagnostic. The first line says which format and under
-// which name ("linux sw1.sh", "yang+ sw1.json" into a small ring with a stream that copies could take), the rest is the text; a line "==== a.ini" begins a further file.
+// SPDX-License-Identifier: Apache-2.0
+// Any octets as the files of every import: neither crash nor hang, and what is refused has a diagnostic. The first line
+// says which format and under which name ("linux sw1.sh", "yang+ sw1.json" into a small ring with a stream that copies
+// could take), the rest is the text; a line "==== a.ini" begins a further file.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,7 +19,8 @@ namespace interchange = takt::interchange;
 
 /// What is imported into: the ways of a redundant stream are there, what devices would say of it is not.
 takt::scenario::Scenario base() {
-  constexpr std::string_view text = R"({"name": "ring", "duration": "1ms", "network": {"generate": [{"topology": "ring", "switches": 3}]},
+  constexpr std::string_view text =
+      R"({"name": "ring", "duration": "1ms", "network": {"generate": [{"topology": "ring", "switches": 3}]},
     "streams": [{"name": "control", "from": "h1", "to": "h3", "payload": "100B", "every": "250us"}, {"name": "bulk", "from": "h2", "to": "h1", "payload": "1400B", "every": "20us"}]})";
   takt::json::Diagnostics diagnostics;
   const auto document = takt::json::parse(text, "base.json", diagnostics);
@@ -26,7 +29,8 @@ takt::scenario::Scenario base() {
   return scenario;
 }
 
-void try_import(const interchange::ImportFormat& format, const std::string& name, std::string_view text, bool has_base) {
+void try_import(const interchange::ImportFormat& format, const std::string& name, std::string_view text,
+                bool has_base) {
   takt::json::Diagnostics diagnostics;
   std::string mistake;
   const auto settings = interchange::Settings::read({}, format.settings, mistake);
@@ -48,7 +52,8 @@ void try_import(const interchange::ImportFormat& format, const std::string& name
   TAKT_CHECK(imported.scenario.has_value() || diagnostics.has_errors(), "what is refused has a diagnostic");
   TAKT_CHECK(!(imported.scenario.has_value() && diagnostics.has_errors()), "no scenario with a mistake");
   TAKT_CHECK(diagnostics.to_text().size() <= std::size_t{1} << 22, "what is told to the user is bounded");
-  for (const interchange::Remark& remark : imported.remarks) TAKT_CHECK(!interchange::to_text(remark).empty(), "a remark says something");
+  for (const interchange::Remark& remark : imported.remarks)
+    TAKT_CHECK(!interchange::to_text(remark).empty(), "a remark says something");
   if (imported.scenario) TAKT_CHECK(!interchange::sparse_text(*imported.scenario).empty(), "a scenario has a text");
 }
 
@@ -65,6 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool has_base = format_name.ends_with('+');
   if (has_base) format_name.remove_suffix(1);
   const interchange::ImportFormat* const format = interchange::find_import_format(format_name);
-  if (format != nullptr && (format->into_base || !has_base)) try_import(*format, std::string(first.substr(blank + 1)), text.substr(line + 1), has_base);
+  if (format != nullptr && (format->into_base || !has_base))
+    try_import(*format, std::string(first.substr(blank + 1)), text.substr(line + 1), has_base);
   return 0;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any octets as a JSON input: neither crash nor hang, and what is accepted survives a round trip.
 //
 // The first line, if it begins with "--set ", is an override of the rest.

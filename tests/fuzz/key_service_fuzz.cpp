@@ -1,5 +1,7 @@
-// Any octets at a client that pulls keys: the first says how far the service is sound. Raw; in an OPN that the service has signed and encrypted; as answers in a channel of the service; as
-// the outputs of GetSecurityKeys; and what became of them at the keys of a node. Neither crash nor hang, bounded memory, and the client comes to an end.
+// SPDX-License-Identifier: Apache-2.0
+// Any octets at a client that pulls keys: the first says how far the service is sound. Raw; in an OPN that the service
+// has signed and encrypted; as answers in a channel of the service; as the outputs of GetSecurityKeys; and what became
+// of them at the keys of a node. Neither crash nor hang, bounded memory, and the client comes to an end.
 #include <cstring>
 #include <limits>
 
@@ -50,11 +52,17 @@ CallClientSettings settings_of_client() {
 
 /// The outputs of GetSecurityKeys, of which each may be anything.
 CallMethodResult any_result(Source& source) {
-  SecurityKeys keys{Text(security::uri_of(security::MessagePolicy::aes128_ctr)), source.number<std::uint32_t>(), {}, source.number<double>(), source.number<double>()};
-  for (int i = source.octet() % 80; i > 0; --i) keys.keys.emplace_back(source.octet() % 8 == 0 ? std::size_t{source.octet()} : std::size_t{52});
+  SecurityKeys keys{Text(security::uri_of(security::MessagePolicy::aes128_ctr)),
+                    source.number<std::uint32_t>(),
+                    {},
+                    source.number<double>(),
+                    source.number<double>()};
+  for (int i = source.octet() % 80; i > 0; --i)
+    keys.keys.emplace_back(source.octet() % 8 == 0 ? std::size_t{source.octet()} : std::size_t{52});
   CallMethodResult result = result_of(keys);
   const auto which = source.octet();
-  if (which < result.output_arguments.size()) result.output_arguments[which] = which % 2 == 0 ? Variant() : Variant(Text("no number"));
+  if (which < result.output_arguments.size())
+    result.output_arguments[which] = which % 2 == 0 ? Variant() : Variant(Text("no number"));
   if (which == 7) result.output_arguments.pop_back();
   return result;
 }
@@ -67,7 +75,8 @@ class Service {
   void run() {
     const CallClientSettings settings = settings_of_client();
     test::CountedRandom random;
-    CallClient client(settings, test::other_identity(), test::test_identity().certificate, random, call_of({Text("cell"), 0, 4}), at(0));
+    CallClient client(settings, test::other_identity(), test::test_identity().certificate, random,
+                      call_of({Text("cell"), 0, 4}), at(0));
     const auto stages = source_.octet() % 6;
     if (stages > 0) client.received(framed(MessageType::Acknowledge, Acknowledge{0, 65'536, 65'536, 0, 0}), at(0));
     client.sent(client.output().size());
@@ -94,8 +103,10 @@ class Service {
     else
       encode_message(body, response);
     const auto& client_certificate = test::other_identity().certificate;
-    const auto chunk = sealed_open(7, policy_, {1, request_}, body.octets(), test::test_identity(), &client_certificate);
-    channel_.emplace(7, ChannelSecurity{policy_.policy, MessageSecurityMode::SignAndEncrypt}, client_certificate, 1U, Side::server, 1U);
+    const auto chunk =
+        sealed_open(7, policy_, {1, request_}, body.octets(), test::test_identity(), &client_certificate);
+    channel_.emplace(7, ChannelSecurity{policy_.policy, MessageSecurityMode::SignAndEncrypt}, client_certificate, 1U,
+                     Side::server, 1U);
     test::CountedRandom random;  // that of the client: its nonce is known here
     std::vector<std::byte> nonce(nonce_octets);
     random.fill(nonce);
@@ -111,7 +122,8 @@ class Service {
     const auto& own = test::test_identity();
     response.server_nonce = Bytes(std::vector<std::byte>(nonce_octets));
     response.server_certificate = Bytes({own.certificate.der().begin(), own.certificate.der().end()});
-    std::vector<std::byte> is_signed(test::other_identity().certificate.der().begin(), test::other_identity().certificate.der().end());
+    std::vector<std::byte> is_signed(test::other_identity().certificate.der().begin(),
+                                     test::other_identity().certificate.der().end());
     is_signed.insert(is_signed.end(), session_nonce_.begin(), session_nonce_.end());
     response.server_signature = {Text(policy_.signature_uri), Bytes(own.key.sign(policy_.signature, is_signed))};
     EndpointDescription endpoint;
@@ -170,7 +182,8 @@ class Service {
 /// Answers of a service, one behind the other, at the keys of a node.
 void feed_keys(Source& source) {
   security::PulledKeys keys(security::MessagePolicy::aes128_ctr);
-  security::KeyRing ring(security::MessagePolicy::aes128_ctr, {1, std::numeric_limits<std::int64_t>::max(), 0}, std::make_unique<security::ListedKeys>(1, std::vector<security::Secret>()));
+  security::KeyRing ring(security::MessagePolicy::aes128_ctr, {1, std::numeric_limits<std::int64_t>::max(), 0},
+                         std::make_unique<security::ListedKeys>(1, std::vector<security::Secret>()));
   security::PullPlan plan;
   std::int64_t now = 0;
   std::int64_t wished = std::numeric_limits<std::int64_t>::min();
@@ -180,11 +193,15 @@ void feed_keys(Source& source) {
     const auto token = source.number<std::uint32_t>();
     if (ring.find(token, now) == nullptr && ring.is_missing(token, now)) plan.wished(now);
     if (plan.is_wished()) {
-      TAKT_CHECK(i == 0 || wished + security::PullPlan::least_between_wishes_ns <= now, "pulls that were wished for are a second apart");
+      TAKT_CHECK(i == 0 || wished + security::PullPlan::least_between_wishes_ns <= now,
+                 "pulls that were wished for are a second apart");
       wished = now;
     }
     auto answer = keys_in(any_result(source));
-    const bool is_given = answer && keys.take({answer->policy_uri.value, answer->first_token, std::move(answer->keys), answer->time_to_next_ms, answer->lifetime_ms}, now).empty();
+    const bool is_given = answer && keys.take({answer->policy_uri.value, answer->first_token, std::move(answer->keys),
+                                               answer->time_to_next_ms, answer->lifetime_ms},
+                                              now)
+                                        .empty();
     if (is_given) ring.replace(keys.schedule(), keys.source());
     if (!keys.is_empty()) TAKT_CHECK(keys.next_pull_ns(now) >= now, "the next pull lies ahead");
     is_given ? plan.gave(now, keys.next_pull_ns(now), keys.has_news()) : plan.failed(now, source.octet());
@@ -200,7 +217,9 @@ void feed_keys(Source& source) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Source source(std::as_bytes(std::span(data, size)));
-  if (source.octet() % 3 == 0) feed_keys(source);
-  else Service(source).run();
+  if (source.octet() % 3 == 0)
+    feed_keys(source);
+  else
+    Service(source).run();
   return 0;
 }

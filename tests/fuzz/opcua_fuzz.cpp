@@ -1,5 +1,7 @@
-// Any octets at the server: the first says how they get there. Before a channel, as UA-TCP in pieces; in an OPN that is signed and encrypted; behind it as chunks; as
-// requests of a session; as requests of which only fields are any. Neither crash nor hang, bounded memory, and another client is served as before.
+// SPDX-License-Identifier: Apache-2.0
+// Any octets at the server: the first says how they get there. Before a channel, as UA-TCP in pieces; in an OPN that is
+// signed and encrypted; behind it as chunks; as requests of a session; as requests of which only fields are any.
+// Neither crash nor hang, bounded memory, and another client is served as before.
 #include "support/opcua_bench.hpp"
 
 namespace {
@@ -30,11 +32,22 @@ class Source {
   Octets octets_;
 };
 
-constexpr std::uint32_t requests[] = {422, 428, 461, 467, 473, 479, 527, 533, 554, 560, 566, 631, 673, 712, 751, 763, 769, 781, 787, 793, 799, 847, 841, 832, 826, 391, 1};
+constexpr std::uint32_t requests[] = {422, 428, 461, 467, 473, 479, 527, 533, 554, 560, 566, 631, 673, 712,
+                                      751, 763, 769, 781, 787, 793, 799, 847, 841, 832, 826, 391, 1};
 
 NodeId any_node(Source& source) {
-  static const NodeId nodes[] = {NodeId(84), NodeId(2253), NodeId(2256), NodeId(2258), NodeId(2391), NodeId(1, "cell"), NodeId(1, "cell.CurrentState"), NodeId(1, "cell.Start"),
-                                 NodeId(2426), NodeId(1, "cell.ProgramDiagnostic"), NodeId(2255), NodeId(7, 7u)};
+  static const NodeId nodes[] = {NodeId(84),
+                                 NodeId(2253),
+                                 NodeId(2256),
+                                 NodeId(2258),
+                                 NodeId(2391),
+                                 NodeId(1, "cell"),
+                                 NodeId(1, "cell.CurrentState"),
+                                 NodeId(1, "cell.Start"),
+                                 NodeId(2426),
+                                 NodeId(1, "cell.ProgramDiagnostic"),
+                                 NodeId(2255),
+                                 NodeId(7, 7u)};
   return nodes[source.octet() % std::size(nodes)];
 }
 
@@ -48,7 +61,8 @@ void say_something(test::PlainClient& client, Source& source, std::uint32_t& sub
   switch (source.octet() % 9) {
     case 0: {
       ReadRequest body;
-      for (int i = source.octet() % 4; i >= 0; --i) body.nodes_to_read.push_back({any_node(source), source.octet() % 30U, any_text(source), {}});
+      for (int i = source.octet() % 4; i >= 0; --i)
+        body.nodes_to_read.push_back({any_node(source), source.octet() % 30U, any_text(source), {}});
       client.send_request(body, now);
       return;
     }
@@ -93,7 +107,9 @@ void say_something(test::PlainClient& client, Source& source, std::uint32_t& sub
           ContentFilterElement element;
           element.filter_operator = static_cast<FilterOperator>(source.octet() % 18);
           for (int j = source.octet() % 4; j > 0; --j)
-            element.filter_operands.push_back(source.octet() % 2 == 0 ? extension_of(ElementOperand{source.octet() % 5U}) : extension_of(LiteralOperand{Variant(NodeId(source.octet()))}));
+            element.filter_operands.push_back(source.octet() % 2 == 0
+                                                  ? extension_of(ElementOperand{source.octet() % 5U})
+                                                  : extension_of(LiteralOperand{Variant(NodeId(source.octet()))}));
           filter.where_clause.elements.push_back(element);
         }
         item.requested_parameters.filter = extension_of(filter);
@@ -102,14 +118,18 @@ void say_something(test::PlainClient& client, Source& source, std::uint32_t& sub
       client.send_request(body, now);
       return;
     }
-    case 4: client.send_request(PublishRequest(), now); return;
+    case 4:
+      client.send_request(PublishRequest(), now);
+      return;
     case 5: {
       CallRequest body;
       body.methods_to_call.push_back({NodeId(1, "cell"), any_node(source), {}});
       client.send_request(body, now);
       return;
     }
-    case 6: client.begin_session(now); return;
+    case 6:
+      client.begin_session(now);
+      return;
     case 7: {
       CloseSessionRequest body;
       body.delete_subscriptions = source.octet() % 2 == 0;
@@ -125,7 +145,8 @@ void say_something(test::PlainClient& client, Source& source, std::uint32_t& sub
   }
 }
 
-/// Of one message, and of the turn that it comes in: the requests of a turn, the longest one that ends it, events and subscriptions.
+/// Of one message, and of the turn that it comes in: the requests of a turn, the longest one that ends it, events and
+/// subscriptions.
 constexpr std::uint64_t most_steps_of_message = 700'000;
 
 /// What a message costs, from its beginning to its end.
@@ -159,12 +180,14 @@ void feed_structured(test::Bench& bench, Source& source) {
     if (what % 4 == 1) {
       ProgramNews news;
       news.kind = ProgramNews::Kind::transition;
-      news.change = {static_cast<std::uint8_t>(source.octet() % 10), handshake::PublishedState::Halted, static_cast<handshake::PublishedState>(11 + source.octet() % 5)};
+      news.change = {static_cast<std::uint8_t>(source.octet() % 10), handshake::PublishedState::Halted,
+                     static_cast<handshake::PublishedState>(11 + source.octet() % 5)};
       news.time = at(now).utc;
       bench.server.news(news, at(now));
     }
     if (what % 4 == 2)
-      for (const auto& call : std::exchange(bench.host.calls, {})) bench.server.answered(call.serial, StatusCode::Good, at(now));
+      for (const auto& call : std::exchange(bench.host.calls, {}))
+        bench.server.answered(call.serial, StatusCode::Good, at(now));
     if (what % 8 == 3) client.take();
   }
 }
@@ -207,14 +230,17 @@ void feed_open(Source& source) {
   trust.trusted.push_back(who.certificate);
   bench.server.trust(trust);
   const ConnectionId id = bench.server.connected("192.0.2.3:1", at(0));
-  bench.server.received(id, framed(MessageType::Hello, Hello{0, 65'536, 65'536, 0, 0, Text("opc.tcp://127.0.0.1:4840")}), at(0));
+  bench.server.received(
+      id, framed(MessageType::Hello, Hello{0, 65'536, 65'536, 0, 0, Text("opc.tcp://127.0.0.1:4840")}), at(0));
   const PolicyInfo& policy = info(SecurityPolicy::Basic256Sha256);
   const bool is_sound = source.octet() % 4 != 0;
   AsymmetricHeader header;
   header.policy_uri = Text(policy.uri);
   header.sender_certificate = Bytes({who.certificate.der().begin(), who.certificate.der().end()});
   header.receiver_thumbprint = Bytes({who.certificate.thumbprint().begin(), who.certificate.thumbprint().end()});
-  for (int i = is_sound ? 0 : source.octet() % 8; i > 0; --i) header.sender_certificate.value[(source.octet() * 256U + source.octet()) % header.sender_certificate.value.size()] = static_cast<std::byte>(source.octet());
+  for (int i = is_sound ? 0 : source.octet() % 8; i > 0; --i)
+    header.sender_certificate.value[(source.octet() * 256U + source.octet()) % header.sender_certificate.value.size()] =
+        static_cast<std::byte>(source.octet());
   Encoder encoder;
   encode_message_header(encoder, MessageType::OpenChannel);
   encoder.put(std::uint32_t{0});
@@ -250,11 +276,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   test::Bench bench;
   Source source(std::as_bytes(std::span(data, size)));
   switch (source.octet() % 5) {
-    case 0: feed_octets(bench, source); break;
-    case 1: feed_chunks(bench, source); break;
-    case 2: feed_bodies(bench, source); break;
-    case 4: feed_open(source); break;
-    default: feed_structured(bench, source);
+    case 0:
+      feed_octets(bench, source);
+      break;
+    case 1:
+      feed_chunks(bench, source);
+      break;
+    case 2:
+      feed_bodies(bench, source);
+      break;
+    case 4:
+      feed_open(source);
+      break;
+    default:
+      feed_structured(bench, source);
   }
   TAKT_CHECK(bench.server.services().sessions() <= 75, "sessions are bounded");
   // Another client, who comes a day later and has done nothing wrong.

@@ -1,4 +1,6 @@
-// Any messages to a DDS participant with discovery, a writer and a reader: neither crash nor hang nor growth; what it says itself stays sound.
+// SPDX-License-Identifier: Apache-2.0
+// Any messages to a DDS participant with discovery, a writer and a reader: neither crash nor hang nor growth; what it
+// says itself stays sound.
 //
 // The input is messages, each behind its length in two octets, little-endian.
 #include <vector>
@@ -31,7 +33,8 @@ class Target {
     participant_.receive(message, dds::Locator::udp_v4(0x0A000002, 7411), now_);
     speak();
     pass(sim::Duration::from_ps(50'000'000'000));
-    TAKT_CHECK(participant_.reader(reader_).rtps.history().size() <= most_samples, "a reader holds what its limits say");
+    TAKT_CHECK(participant_.reader(reader_).rtps.history().size() <= most_samples,
+               "a reader holds what its limits say");
     if (++received_ % 3 == 0) participant_.take(reader_, now_);
   }
   void pass(sim::Duration duration) {
@@ -76,7 +79,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (int messages = 0; left.size() >= 2 && messages < 100; ++messages) {
     const std::size_t wanted = std::to_integer<std::size_t>(left[0]) + 256 * std::to_integer<std::size_t>(left[1]);
     left = left.subspan(2);
-    const std::vector<std::byte> message(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, left.size())));
+    const std::vector<std::byte> message(left.begin(),
+                                         left.begin() + static_cast<std::ptrdiff_t>(std::min(wanted, left.size())));
     left = left.subspan(message.size());
     target.receive(message);
   }

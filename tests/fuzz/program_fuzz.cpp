@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any octets as a message of a Program: neither crash nor hang; what is understood is what its encoder writes again.
 #include <algorithm>
 #include <cstdio>
@@ -26,7 +27,8 @@ wire::ProgramFormat format_of(handshake::Variant variant) {
   std::abort();
 }
 
-/// Where a message holds what decoding gives: all but the sequence number of the group and the status, which nobody reads.
+/// Where a message holds what decoding gives: all but the sequence number of the group and the status, which nobody
+/// reads.
 bool is_unread(std::size_t octet) { return octet == 13 || octet == 14 || octet == 18 || octet == 19; }
 
 /// The same state with other octets, as decoding has it: one is known again by its octets only if it says the same.
@@ -39,7 +41,9 @@ void check_known(const wire::ProgramFormat& format, uadp::Octets octets, const h
     if (known.is_repeated_by(other)) {
       const auto message = format.decode(other);
       const auto sender = format.sender_of(other);
-      if (!message || !sender || std::get<wire::StateMessage>(*message) != known.message(static_cast<std::uint8_t>(*sender), other)) fail("known as what it is not");
+      if (!message || !sender ||
+          std::get<wire::StateMessage>(*message) != known.message(static_cast<std::uint8_t>(*sender), other))
+        fail("known as what it is not");
     }
     octet ^= std::byte{1};
   }
@@ -61,7 +65,8 @@ void check(const wire::ProgramFormat& format, uadp::Octets octets) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const wire::ProgramFormat robust = format_of(handshake::Variant::robust);
   static const wire::ProgramFormat paper = format_of(handshake::Variant::paper);
-  const std::vector<std::byte> exact(reinterpret_cast<const std::byte*>(data), reinterpret_cast<const std::byte*>(data) + size);
+  const std::vector<std::byte> exact(reinterpret_cast<const std::byte*>(data),
+                                     reinterpret_cast<const std::byte*>(data) + size);
   check(robust, exact);
   check(paper, exact);
   return 0;

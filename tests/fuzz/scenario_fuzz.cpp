@@ -1,8 +1,9 @@
-// Any octets as a scenario: a diagnostic or a sound scenario, never a crash, a hang or a broken CHECK; what is sound runs, is
-// reported, and means the same after it has been written out and read again.
+// SPDX-License-Identifier: Apache-2.0
+// Any octets as a scenario: a diagnostic or a sound scenario, never a crash, a hang or a broken CHECK; what is sound
+// runs, is reported, and means the same after it has been written out and read again.
 //
-// The first line, if it begins with "--set ", is an override of the rest. Two kinds of input are left out: streams with a
-// trace, since they would open files, and what is sound but large, since it would only be slow.
+// The first line, if it begins with "--set ", is an override of the rest. Two kinds of input are left out: streams with
+// a trace, since they would open files, and what is sound but large, since it would only be slow.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,7 @@
 #include "json/override.hpp"
 #include "output/text_report.hpp"
 #include "results/result_json.hpp"
-#include "scenario/resolve/resolve.hpp"
+#include "scenario/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "scenario/topology/generators.hpp"
 #include "sim/check.hpp"
@@ -55,7 +56,8 @@ void try_sound(const scenario::Resolved& resolved) {
   json::Diagnostics diagnostics;
   const auto again = scenario::load_text(copy, "copy.json", {}, diagnostics);
   TAKT_CHECK(again, "a resolved copy has no mistakes");
-  TAKT_CHECK(again->scenario == resolved.scenario && json::encode(again->scenario) == copy, "a resolved copy means the same");
+  TAKT_CHECK(again->scenario == resolved.scenario && json::encode(again->scenario) == copy,
+             "a resolved copy means the same");
   if (resolved.plan.nodes.size() > 2 * most_generated) return;
   TAKT_CHECK(digest_of(resolved) == digest_of(*again), "a resolved copy runs the same");
 }
@@ -73,7 +75,8 @@ void try_input(std::string_view text, const std::vector<std::string>& overrides)
   }
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(text, "fuzz.json", overrides, diagnostics);
-  TAKT_CHECK((resolved != nullptr) != diagnostics.has_errors(), "a text that is refused has an error, a sound one has none");
+  TAKT_CHECK((resolved != nullptr) != diagnostics.has_errors(),
+             "a text that is refused has an error, a sound one has none");
   TAKT_CHECK(diagnostics.to_text().size() <= std::size_t{1} << 22, "what is told to the user is bounded");
   if (resolved) try_sound(*resolved);
 }

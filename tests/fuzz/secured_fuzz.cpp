@@ -1,4 +1,6 @@
-// Any octets as a secured message, and sealed messages with some of their octets changed: nobody crashes, nothing is taken that the key has not signed, nothing is taken twice.
+// SPDX-License-Identifier: Apache-2.0
+// Any octets as a secured message, and sealed messages with some of their octets changed: nobody crashes, nothing is
+// taken that the key has not signed, nothing is taken twice.
 //
 // The input: how the channel is set, then one operation after the other.
 #include <cstdint>
@@ -37,12 +39,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Input input(data, size);
   const std::uint8_t kind = input.next();
   const auto policy = (kind & 1) != 0 ? MessagePolicy::aes256_ctr : MessagePolicy::aes128_ctr;
-  const ChannelSettings settings{(kind & 2) != 0 ? MessageMode::sign : MessageMode::sign_and_encrypt, static_cast<Nonces>(kind / 4 % 3), 1, 1};
+  const ChannelSettings settings{(kind & 2) != 0 ? MessageMode::sign : MessageMode::sign_and_encrypt,
+                                 static_cast<Nonces>(kind / 4 % 3), 1, 1};
   const KeySchedule schedule{(kind & 64) != 0 ? 0xFFFF'FFFEU : 1U, 0, 100};
   std::vector<StoredWindow> windows(16);
   std::vector<StoredWindow> unused(16);
-  SecureChannel receiver(settings, KeyRing(policy, schedule, std::make_unique<DerivedKeys>(policy, "cell", Secret(32))), ReplayMemory(windows));
-  SecureChannel sender(settings, KeyRing(policy, schedule, std::make_unique<DerivedKeys>(policy, "cell", Secret(32))), ReplayMemory(unused));
+  SecureChannel receiver(settings, KeyRing(policy, schedule, std::make_unique<DerivedKeys>(policy, "cell", Secret(32))),
+                         ReplayMemory(windows));
+  SecureChannel sender(settings, KeyRing(policy, schedule, std::make_unique<DerivedKeys>(policy, "cell", Secret(32))),
+                       ReplayMemory(unused));
   std::int64_t now = 0;
   for (int operations = 0; operations < 40 && !input.is_empty(); ++operations) {
     const std::uint8_t operation = input.next();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any octets as a NetworkMessage: neither crash nor hang; what is understood survives a round trip.
 #include <vector>
 
@@ -75,7 +76,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::vector<std::byte> once = canonical(message);
   if (once.empty()) return 0;
   uadp::NetworkMessage again;
-  TAKT_CHECK(decode(once, again) == uadp::DecodeStatus::ok && is_sound(again), "what was understood is sound when written again");
+  TAKT_CHECK(decode(once, again) == uadp::DecodeStatus::ok && is_sound(again),
+             "what was understood is sound when written again");
   TAKT_CHECK(canonical(again) == once, "the canonical form is its own canonical form");
   return 0;
 }

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """takt_soak --against: what differs between two builds is found and shrunk, what only moves is not. The other build is this one behind a script that changes what it says.
 
 usage: against_test.py TAKT_SOAK TAKT TAKT_DIGEST

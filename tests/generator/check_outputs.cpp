@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/check_outputs.hpp"
 
 #include <unistd.h>
@@ -12,7 +13,7 @@
 
 #include "interchange/format.hpp"
 #include "interchange/linux/script.hpp"
-#include "interchange/xml/xml.hpp"
+#include "xml/xml.hpp"
 #include "json/document.hpp"
 #include "output/recording.hpp"
 #include "output/result_folder.hpp"

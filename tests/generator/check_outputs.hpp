@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // What takt writes of a scenario, read back: whatever the names, files keep their form.
 #pragma once
 
 #include <string>
 
 #include "results/run_result.hpp"
-#include "scenario/resolve/resolved.hpp"
+#include "scenario/resolved/resolved.hpp"
 
 namespace takt::generator {
 

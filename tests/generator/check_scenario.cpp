@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/check_scenario.hpp"
 
 #include <algorithm>
@@ -17,14 +18,14 @@
 #include "json/quantity.hpp"
 #include "output/text_report.hpp"
 #include "results/result_json.hpp"
-#include "scenario/resolve/resolve.hpp"
-#include "scenario/run/divided_run.hpp"
+#include "scenario/resolve.hpp"
+#include "scenario/division/divided_run.hpp"
 #include "scenario/run/run.hpp"
 #include "study/phases.hpp"
-#include "tests/explain/checked_ways.hpp"
+#include "tests/simulation/explain/checked_ways.hpp"
 #include "tests/generator/check_outputs.hpp"
 #include "tests/generator/schema_validation.hpp"
-#include "tests/property/twins.hpp"
+#include "tests/experiments/property/twins.hpp"
 #include "tests/wire_checker/checked_run.hpp"
 #include "verify/monitor.hpp"
 #include "verify/report.hpp"
@@ -40,14 +41,16 @@ std::string took(sim::Duration time) { return to_text(time); }
 class Handles final : public sim::TraceSink {
  public:
   void record(const sim::TraceRecord& record) override {
-    if (record.kind == static_cast<std::uint32_t>(models::Occurrence::produced)) handles.insert(static_cast<std::uint32_t>(record.what));
+    if (record.kind == static_cast<std::uint32_t>(models::Occurrence::produced))
+      handles.insert(static_cast<std::uint32_t>(record.what));
   }
   std::set<std::uint32_t> handles;
 };
 
 class Checks {
  public:
-  Checks(const scenario::Resolved& resolved, std::string file, const CheckOptions& options, Checked& checked) : r_(resolved), file_(std::move(file)), options_(options), checked_(checked) {}
+  Checks(const scenario::Resolved& resolved, std::string file, const CheckOptions& options, Checked& checked)
+      : r_(resolved), file_(std::move(file)), options_(options), checked_(checked) {}
 
   void all(const std::string& text) {
     check("run", [&] { plain_run(); });
@@ -88,21 +91,29 @@ class Checks {
   }
   /// Of each check the first.
   void wrong(std::string message) {
-    if (std::ranges::none_of(checked_.findings, [&](const Finding& each) { return each.check == present_; })) checked_.findings.push_back({present_, std::move(message)});
+    if (std::ranges::none_of(checked_.findings, [&](const Finding& each) { return each.check == present_; }))
+      checked_.findings.push_back({present_, std::move(message)});
   }
   void expect(bool holds, const std::function<std::string()>& message) {
     if (!holds) wrong(message());
   }
 
   bool is_ideal() const {
-    if (r_.scenario.clocks.gptp || r_.scenario.clocks.all || !r_.scenario.clocks.nodes.empty() || r_.scenario.clocks.model != scenario::ClockModel::ideal) return false;
+    if (r_.scenario.clocks.gptp || r_.scenario.clocks.all || !r_.scenario.clocks.nodes.empty() ||
+        r_.scenario.clocks.model != scenario::ClockModel::ideal)
+      return false;
     // Nor are frames over the bypass of a station.
-    if (std::ranges::any_of(r_.script, [](const scenario::ResolvedAction& action) { return std::holds_alternative<scenario::ResolvedBypass>(action.what); })) return false;
-    // Nor is a station that forwards with jitter and whose host eliminates copies: they end when their random times are over, not when they come.
+    if (std::ranges::any_of(r_.script, [](const scenario::ResolvedAction& action) {
+          return std::holds_alternative<scenario::ResolvedBypass>(action.what);
+        }))
+      return false;
+    // Nor is a station that forwards with jitter and whose host eliminates copies: they end when their random times are
+    // over, not when they come.
     for (const models::HostRecoveryPlan& recovery : r_.plan.host_recoveries)
       if (r_.plan.nodes[recovery.host.value].forwarding_jitter) return false;
     // A bridge that cuts through frames that a link may double is not followed (tests/wire_checker/README.md).
-    const bool cuts = std::ranges::any_of(r_.plan.port_configs, [](const models::PortConfig& config) { return config.cut_through != 0; });
+    const bool cuts = std::ranges::any_of(r_.plan.port_configs,
+                                          [](const models::PortConfig& config) { return config.cut_through != 0; });
     const bool doubles = std::ranges::any_of(r_.scenario.faults, [](const scenario::Fault& fault) {
       const auto* const errors = std::get_if<scenario::FrameErrors>(&fault);
       return errors != nullptr && errors->duplication.has_value();
@@ -119,17 +130,21 @@ class Checks {
     static_cast<void>(output::run_report(*result_));
     static_cast<void>(output::check_report(r_));
     json::Diagnostics diagnostics;
-    expect(json::parse(results::run_json(*result_), "result.json", diagnostics).has_value(), [&] { return "result.json: " + diagnostics.to_text(); });
+    expect(json::parse(results::run_json(*result_), "result.json", diagnostics).has_value(),
+           [&] { return "result.json: " + diagnostics.to_text(); });
   }
 
   void copy(const std::string& text) {
-    expect(refused_by_schema(text).empty(), [&] { return "the schema refuses what the loader takes: " + refused_by_schema(text); });
+    expect(refused_by_schema(text).empty(),
+           [&] { return "the schema refuses what the loader takes: " + refused_by_schema(text); });
     const std::string written = json::encode(r_.scenario);
-    expect(refused_by_schema(written).empty(), [&] { return "the schema refuses the resolved copy: " + refused_by_schema(written); });
+    expect(refused_by_schema(written).empty(),
+           [&] { return "the schema refuses the resolved copy: " + refused_by_schema(written); });
     json::Diagnostics diagnostics;
     const auto again = scenario::load_text(written, file_, {}, diagnostics);
     if (!again) return wrong("the resolved copy is refused: " + diagnostics.to_text());
-    expect(json::encode(again->scenario) == written, [] { return std::string("the copy of the resolved copy differs from it"); });
+    expect(json::encode(again->scenario) == written,
+           [] { return std::string("the copy of the resolved copy differs from it"); });
     expect(digest_of(*again, 0) == digest_, [] { return std::string("the resolved copy has another digest"); });
   }
 
@@ -141,12 +156,15 @@ class Checks {
 
   void digests() {
     for (const std::uint64_t key : {1ULL, 0xDEAD'BEEFULL})
-      expect(digest_of(r_, key) == digest_, [&] { return "the digest depends on the order of equal events (key " + std::to_string(key) + ")"; });
+      expect(digest_of(r_, key) == digest_,
+             [&] { return "the digest depends on the order of equal events (key " + std::to_string(key) + ")"; });
     // In steps of some events it is the same run.
     scenario::Run run(r_);
     while (!run.advance(997)) continue;
-    expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest of a run in steps differs"); });
-    expect(results::run_json(evaluation::evaluate(run, false)) == results::run_json(*result_), [] { return std::string("the result of a run in steps differs"); });
+    expect(run.simulation().digest().value() == digest_,
+           [] { return std::string("the digest of a run in steps differs"); });
+    expect(results::run_json(evaluation::evaluate(run, false)) == results::run_json(*result_),
+           [] { return std::string("the result of a run in steps differs"); });
   }
 
   void threads(const scenario::Division& division) {
@@ -160,7 +178,8 @@ class Checks {
     wire_checker::CheckedRun run(r_);
     const std::string found = run.to_the_end().all();
     expect(found.empty(), [&] { return found; });
-    expect(run.run.simulation().digest().value() == digest_, [] { return std::string("the digest with a recorder differs"); });
+    expect(run.run.simulation().digest().value() == digest_,
+           [] { return std::string("the digest with a recorder differs"); });
   }
 
   void frames() {
@@ -168,32 +187,43 @@ class Checks {
     Handles handles;
     run.simulation().set_trace(&handles);
     run.advance();
-    expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest with a recorder differs"); });
+    expect(run.simulation().digest().value() == digest_,
+           [] { return std::string("the digest with a recorder differs"); });
     const models::Traffic& traffic = run.network().traffic();
     std::uint64_t in_flight = 0;
     for (const models::Stream& stream : traffic.streams()) {
       expect(stream.delivered + stream.dropped_in_all() <= stream.sent + stream.copies, [&] {
-        return "more frames of a stream came or were lost than there were: " + std::to_string(stream.sent) + " sent, " + std::to_string(stream.copies) + " copies, " +
-               std::to_string(stream.delivered) + " delivered, " + std::to_string(stream.dropped_in_all()) + " dropped";
+        return "more frames of a stream came or were lost than there were: " + std::to_string(stream.sent) + " sent, " +
+               std::to_string(stream.copies) + " copies, " + std::to_string(stream.delivered) + " delivered, " +
+               std::to_string(stream.dropped_in_all()) + " dropped";
       });
       in_flight += stream.in_flight();
     }
-    expect(traffic.live_frames() <= in_flight, [&] { return std::to_string(traffic.live_frames()) + " frames live, " + std::to_string(in_flight) + " are on their way"; });
+    expect(traffic.live_frames() <= in_flight, [&] {
+      return std::to_string(traffic.live_frames()) + " frames live, " + std::to_string(in_flight) + " are on their way";
+    });
     std::uint64_t references = 0;
     for (const std::uint32_t handle : handles.handles) references += traffic.frame({handle}).references;
-    expect(references <= in_flight, [&] { return std::to_string(references) + " references of live frames, " + std::to_string(in_flight) + " frames on their way"; });
+    expect(references <= in_flight, [&] {
+      return std::to_string(references) + " references of live frames, " + std::to_string(in_flight) +
+             " frames on their way";
+    });
     for (const results::StreamResult& stream : result_->streams)
-      expect(stream.sent + stream.copies == stream.delivered + stream.dropped_in_all() + stream.in_flight, [&] { return stream.name + ": its frames do not add up"; });
+      expect(stream.sent + stream.copies == stream.delivered + stream.dropped_in_all() + stream.in_flight,
+             [&] { return stream.name + ": its frames do not add up"; });
   }
 
   void ways() {
     scenario::Run run(r_);
-    wire_checker::WireChecker checker(r_.plan, wire_checker::changes_of(r_), wire_checker::directory_of(run.network()), [&run](models::FrameIndex handle) -> const models::Frame& { return run.network().traffic().frame(handle); });
+    wire_checker::WireChecker checker(
+        r_.plan, wire_checker::changes_of(r_), wire_checker::directory_of(run.network()),
+        [&run](models::FrameIndex handle) -> const models::Frame& { return run.network().traffic().frame(handle); });
     explain::CheckedWays ways(run, is_ideal() ? &checker : nullptr);
     run.advance();
     const std::string found = ways.finish();
     expect(found.empty(), [&] { return found; });
-    expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest of a run that is explained differs"); });
+    expect(run.simulation().digest().value() == digest_,
+           [] { return std::string("the digest of a run that is explained differs"); });
     if (!is_ideal()) return;
     checker.finish(run.end().ps());
     expect(checker.violations().all().empty(), [&] { return checker.violations().all(); });
@@ -203,13 +233,14 @@ class Checks {
   void clocks() {
     struct Looks final : scenario::ClockSampleSink {
       void sample(const scenario::ClockSample& sample) override {
-        if (all.empty() || all.back().at != sample.time) all.push_back({sample.time, sample.true_offset, sample.true_offset});
+        if (all.empty() || all.back().at != sample.time)
+          all.push_back({sample.time, sample.true_offset, sample.true_offset});
         all.back().least = std::min(all.back().least, sample.true_offset);
         all.back().greatest = std::max(all.back().greatest, sample.true_offset);
       }
       struct Look {
         sim::TrueTime at;
-        sim::Duration least, greatest;   // from true time
+        sim::Duration least, greatest;  // from true time
       };
       std::vector<Look> all;
     };
@@ -217,17 +248,24 @@ class Checks {
     Looks looks;
     run.set_clock_sink(&looks);
     run.advance();
-    expect(run.simulation().digest().value() == digest_, [] { return std::string("the digest of a run whose clocks are looked at differs"); });
+    expect(run.simulation().digest().value() == digest_,
+           [] { return std::string("the digest of a run whose clocks are looked at differs"); });
     for (const results::RequirementResult& each : result_->requirements) {
       const bool is_of_all = each.subject.empty() || each.subject == scenario::all_clocks;
-      if ((each.kind != results::RequirementKind::sync && each.kind != results::RequirementKind::clocks) || !is_of_all || each.verdict != results::Verdict::pass) continue;
+      if ((each.kind != results::RequirementKind::sync && each.kind != results::RequirementKind::clocks) ||
+          !is_of_all || each.verdict != results::Verdict::pass)
+        continue;
       // Two clocks near a third one are twice as far from each other at most.
       const sim::Duration limit = each.kind == results::RequirementKind::sync ? *each.limit * 2 : *each.limit;
       for (const Looks::Look& look : looks.all)
         if (look.at.since_start() >= each.from)
-          expect(look.greatest - look.least <= limit, [&] { return each.text + " passes, and two clocks are " + took(look.greatest - look.least) + " apart at " + took(look.at.since_start()); });
+          expect(look.greatest - look.least <= limit, [&] {
+            return each.text + " passes, and two clocks are " + took(look.greatest - look.least) + " apart at " +
+                   took(look.at.since_start());
+          });
       const bool is_for_all = each.kind == results::RequirementKind::sync;
-      expect(!is_for_all || grandmasters(run) < 2, [&] { return each.text + " passes, and there are two grandmasters at the end"; });
+      expect(!is_for_all || grandmasters(run) < 2,
+             [&] { return each.text + " passes, and there are two grandmasters at the end"; });
     }
     gates_of_gptp();
   }
@@ -237,21 +275,33 @@ class Checks {
     std::set<std::uint32_t> found;
     for (std::uint32_t n = 0; n < r_.plan.nodes.size(); ++n) {
       const models::gptp::Station* const station = run.network().station(models::NodeIndex{n});
-      if (station != nullptr && station->is_up() && station->active_is_grandmaster() && !station->standby()) found.insert(n);
+      if (station != nullptr && station->is_up() && station->active_is_grandmaster() && !station->standby())
+        found.insert(n);
     }
     return found.size();
   }
 
-  /// A list that never opens the class of gPTP keeps the clocks behind it from following anybody. Where a list begins late, or is exchanged, the first one may do otherwise.
+  /// A list that never opens the class of gPTP keeps the clocks behind it from following anybody. Where a list begins
+  /// late, or is exchanged, the first one may do otherwise.
   void gates_of_gptp() {
-    if (std::ranges::any_of(r_.script, [](const scenario::ResolvedAction& action) { return std::holds_alternative<scenario::ResolvedGates>(action.what) || std::holds_alternative<scenario::ResolvedStuckGate>(action.what); })) return;
+    if (std::ranges::any_of(r_.script, [](const scenario::ResolvedAction& action) {
+          return std::holds_alternative<scenario::ResolvedGates>(action.what) ||
+                 std::holds_alternative<scenario::ResolvedStuckGate>(action.what);
+        }))
+      return;
     for (const models::LinkPlan& link : r_.plan.links)
       for (const models::LinkPlan::End* const end : {&link.a, &link.b}) {
-        const models::PortConfig& config = r_.plan.port_configs[end->port_config.value_or(r_.plan.nodes[end->node.value].port_config)];
+        const models::PortConfig& config =
+            r_.plan.port_configs[end->port_config.value_or(r_.plan.nodes[end->node.value].port_config)];
         const auto& gates = config.shaping.gates;
-        if (!r_.plan.gptp[link.a.node.value] || !r_.plan.gptp[link.b.node.value] || !gates || gates->admin_control_list.empty() || gates->admin_base_time > sim::LocalTime()) continue;
-        const bool opens = std::ranges::any_of(gates->admin_control_list, [&](const models::GateControlEntry& entry) { return models::contains(entry.gate_states, config.traffic_class_of_priority[7]); });
-        expect(opens, [&] { return "the gates of " + r_.plan.nodes[end->node.value].name + " never open the class of gPTP"; });
+        if (!r_.plan.gptp[link.a.node.value] || !r_.plan.gptp[link.b.node.value] || !gates ||
+            gates->admin_control_list.empty() || gates->admin_base_time > sim::LocalTime())
+          continue;
+        const bool opens = std::ranges::any_of(gates->admin_control_list, [&](const models::GateControlEntry& entry) {
+          return models::contains(entry.gate_states, config.traffic_class_of_priority[7]);
+        });
+        expect(opens,
+               [&] { return "the gates of " + r_.plan.nodes[end->node.value].name + " never open the class of gPTP"; });
       }
   }
 
@@ -259,7 +309,8 @@ class Checks {
     analysis::Bounds bounds = analysis::bound(r_);
     static_cast<void>(analysis::text_report(r_, bounds));
     json::Diagnostics diagnostics;
-    expect(json::parse(analysis::json_report(r_, bounds), "bounds.json", diagnostics).has_value(), [&] { return "the report of bounds: " + diagnostics.to_text(); });
+    expect(json::parse(analysis::json_report(r_, bounds), "bounds.json", diagnostics).has_value(),
+           [&] { return "the report of bounds: " + diagnostics.to_text(); });
     scenario::Run run(r_);
     run.advance();
     keeps(run, *result_, std::move(bounds));
@@ -281,15 +332,23 @@ class Checks {
     // What the run itself breaks is no premise of a bound.
     for (const verify::Violation& violation : verify::violations_in(run, result))
       bounds.ledger.violate(violation.assumption, violation.witness);
-    const auto stands = [&](const analysis::Assumptions& assumptions) { return bounds.ledger.objection(assumptions, r_.scenario.warm_up).empty(); };
+    const auto stands = [&](const analysis::Assumptions& assumptions) {
+      return bounds.ledger.objection(assumptions, r_.scenario.warm_up).empty();
+    };
     for (std::size_t s = 0; s < bounds.streams.size(); ++s) {
       const analysis::StreamBound& bound = bounds.streams[s];
       const results::StreamResult& stream = result.streams[s];
       expect(bound.latency || !bound.reason.empty(), [&] { return bound.name + " has neither a bound nor a reason"; });
       if (!stands(bound.assumptions) || !stream.latency) continue;
-      expect(stream.latency->min >= bound.least, [&] { return bound.name + " took " + took(stream.latency->min) + ", the least is " + took(bound.least); });
-      if (bound.latency) expect(stream.latency->max <= *bound.latency, [&] { return bound.name + " took " + took(stream.latency->max) + ", the bound is " + took(*bound.latency); });
-      if (bound.reaches_all && bound.latency) expect(stream.lost == 0, [&] { return bound.name + " loses nothing, but " + std::to_string(stream.lost) + " frames"; });
+      expect(stream.latency->min >= bound.least,
+             [&] { return bound.name + " took " + took(stream.latency->min) + ", the least is " + took(bound.least); });
+      if (bound.latency)
+        expect(stream.latency->max <= *bound.latency, [&] {
+          return bound.name + " took " + took(stream.latency->max) + ", the bound is " + took(*bound.latency);
+        });
+      if (bound.reaches_all && bound.latency)
+        expect(stream.lost == 0,
+               [&] { return bound.name + " loses nothing, but " + std::to_string(stream.lost) + " frames"; });
     }
     for (const analysis::ReactionBound& bound : bounds.reactions)
       if (bound.cause == handshake::Cause::command && bound.bound && stands(bound.assumptions))
@@ -342,15 +401,21 @@ class Checks {
     return latency ? took(*latency) : "unbounded";
   }
 
-  void thread(const analysis::ThreadBound& bound, const scenario::ResolvedThread& thread, const results::ThreadResult& found, const std::string& application) {
+  void thread(const analysis::ThreadBound& bound, const scenario::ResolvedThread& thread,
+              const results::ThreadResult& found, const std::string& application) {
     const std::string name = application + "/" + found.name;
     if (found.response)
-      expect(found.response->min >= bound.least_response && found.response->max <= bound.greatest_response,
-             [&] { return name + " responds after " + took(found.response->min) + " to " + took(found.response->max) + ", the bounds are " + took(bound.least_response) + " and " + took(bound.greatest_response); });
-    expect(!bound.is_always_done || (found.missed == 0 && found.response), [&] { return name + " misses " + std::to_string(found.missed) + " calls of none"; });
+      expect(found.response->min >= bound.least_response && found.response->max <= bound.greatest_response, [&] {
+        return name + " responds after " + took(found.response->min) + " to " + took(found.response->max) +
+               ", the bounds are " + took(bound.least_response) + " and " + took(bound.greatest_response);
+      });
+    expect(!bound.is_always_done || (found.missed == 0 && found.response),
+           [&] { return name + " misses " + std::to_string(found.missed) + " calls of none"; });
     expect(!bound.is_tested || found.calls.percent == 100.0, [&] { return name + " is done in fewer calls than all"; });
-    expect(!bound.loses_nothing || found.lost == 0, [&] { return name + " loses " + std::to_string(found.lost) + " values of none"; });
-    expect(!bound.most_found || *bound.most_found > thread.buffer || found.overwritten == 0, [&] { return name + " overwrites " + std::to_string(found.overwritten) + " values of none"; });
+    expect(!bound.loses_nothing || found.lost == 0,
+           [&] { return name + " loses " + std::to_string(found.lost) + " values of none"; });
+    expect(!bound.most_found || *bound.most_found > thread.buffer || found.overwritten == 0,
+           [&] { return name + " overwrites " + std::to_string(found.overwritten) + " values of none"; });
   }
 
   /// Those to a call that nothing else came across.
@@ -364,11 +429,16 @@ class Checks {
       for (const results::ProgramResult& other : result.programs) {
         for (const auto* const list : {&other.reactions, &other.tree_reactions})
           for (const results::ReactionResult& each : *list)
-            if (&each != &reaction && each.began <= *reaction.completed && (!each.completed || *each.completed >= reaction.began || each.superseded) &&
+            if (&each != &reaction && each.began <= *reaction.completed &&
+                (!each.completed || *each.completed >= reaction.began || each.superseded) &&
                 !(each.kind == reaction.kind && each.began == reaction.began))
               is_alone = false;
       }
-      if (is_alone) expect(*reaction.duration() <= *bound.bound, [&] { return program.name + ": " + reaction.kind + " took " + took(*reaction.duration()) + ", the bound is " + took(*bound.bound); });
+      if (is_alone)
+        expect(*reaction.duration() <= *bound.bound, [&] {
+          return program.name + ": " + reaction.kind + " took " + took(*reaction.duration()) + ", the bound is " +
+                 took(*bound.bound);
+        });
     }
   }
 
@@ -382,16 +452,27 @@ class Checks {
     static_cast<void>(verify::text_report(r_.scenario.name, found, std::vector<std::string>(found.lines.size())));
     static_cast<void>(verify::json_report(r_.scenario.name, found, std::vector<std::string>(found.lines.size())));
     expect(!found.contradiction, [&] { return "a contradiction: " + found.contradiction->text; });
-    expect(found.lines.size() == result_->requirements.size(), [] { return std::string("another number of requirements than in the run"); });
+    expect(found.lines.size() == result_->requirements.size(),
+           [] { return std::string("another number of requirements than in the run"); });
     for (std::size_t i = 0; i < std::min(found.lines.size(), result_->requirements.size()); ++i) {
       const verify::Line& line = found.lines[i];
       const results::RequirementResult& run = result_->requirements[i];
       expect(line.verdict != verify::Conclusion::contradiction, [&] { return run.text + ": a contradiction"; });
-      if (run.verdict == results::Verdict::fail) expect(line.verdict == verify::Conclusion::refuted, [&] { return run.text + ": a run fails it, verify says " + verify::name_of(line.verdict); });
-      if (run.measured && line.simulated) expect(*run.measured <= *line.simulated || run.kind == results::RequirementKind::sync || run.kind == results::RequirementKind::clocks, [&] { return run.text + ": a run measured " + took(*run.measured) + ", verify at most " + took(*line.simulated); });
+      if (run.verdict == results::Verdict::fail)
+        expect(line.verdict == verify::Conclusion::refuted,
+               [&] { return run.text + ": a run fails it, verify says " + verify::name_of(line.verdict); });
+      if (run.measured && line.simulated)
+        expect(*run.measured <= *line.simulated || run.kind == results::RequirementKind::sync ||
+                   run.kind == results::RequirementKind::clocks,
+               [&] {
+                 return run.text + ": a run measured " + took(*run.measured) + ", verify at most " +
+                        took(*line.simulated);
+               });
       if (line.verdict == verify::Conclusion::refuted) replay(i, line);
       for (const verify::Remedy& remedy : line.remedies) try_remedy(line, remedy);
-      if (const std::string full = "a full queue may drop frames at "; line.reason.starts_with(full)) expect(has_limited_queue(line.reason.substr(full.size())), [&] { return run.text + ": " + line.reason + ", which has no limit"; });
+      if (const std::string full = "a full queue may drop frames at "; line.reason.starts_with(full))
+        expect(has_limited_queue(line.reason.substr(full.size())),
+               [&] { return run.text + ": " + line.reason + ", which has no limit"; });
     }
   }
 
@@ -419,19 +500,27 @@ class Checks {
       for (const models::LinkPlan::End* const end : {&link.a, &link.b}) {
         const models::NodePlan& node = r_.plan.nodes[end->node.value];
         if (node.name != place.substr(0, colon) || std::to_string(end->port) != place.substr(colon + 1)) continue;
-        return std::ranges::any_of(r_.plan.port_configs[end->port_config.value_or(node.port_config)].queue_limits, &models::QueueLimit::is_finite);
+        return std::ranges::any_of(r_.plan.port_configs[end->port_config.value_or(node.port_config)].queue_limits,
+                                   &models::QueueLimit::is_finite);
       }
     return false;
   }
 
-  /// A frame is said to be lost if some stream has lost one, and then of such a stream; where copies are told apart, one that a listener misses.
+  /// A frame is said to be lost if some stream has lost one, and then of such a stream; where copies are told apart,
+  /// one that a listener misses.
   void lost() {
-    const std::vector<explain::ExplainedFrame> frames = explain::explain_frame(r_, {.which = explain::FrameQuestion::Which::lost});
+    const std::vector<explain::ExplainedFrame> frames =
+        explain::explain_frame(r_, {.which = explain::FrameQuestion::Which::lost});
     const auto has_lost = [](const results::StreamResult& stream) { return stream.lost > 0; };
-    if (frames.empty()) return expect(r_.scenario.warm_up > sim::Duration() || std::ranges::none_of(result_->streams, has_lost), [] { return std::string("a stream has lost frames, and none is explained"); });
+    if (frames.empty())
+      return expect(r_.scenario.warm_up > sim::Duration() || std::ranges::none_of(result_->streams, has_lost),
+                    [] { return std::string("a stream has lost frames, and none is explained"); });
     const auto stream = std::ranges::find(result_->streams, frames.front().stream, &results::StreamResult::name);
     if (r_.scenario.warm_up > sim::Duration() || stream == result_->streams.end()) return;
-    expect(has_lost(*stream), [&] { return "frame " + std::to_string(frames.front().sequence) + " of " + stream->name + " is said to be lost, and nothing of it is"; });
+    expect(has_lost(*stream), [&] {
+      return "frame " + std::to_string(frames.front().sequence) + " of " + stream->name +
+             " is said to be lost, and nothing of it is";
+    });
   }
 
   void replay(std::size_t number, const verify::Line& line) {
@@ -442,7 +531,8 @@ class Checks {
     scenario::Run run(*again);
     run.advance();
     const results::RunResult result = evaluation::evaluate(run, false);
-    expect(number < result.requirements.size() && result.requirements[number].verdict == results::Verdict::fail, [&] { return line.requirement.text + ": refuted, but its worst run passes"; });
+    expect(number < result.requirements.size() && result.requirements[number].verdict == results::Verdict::fail,
+           [&] { return line.requirement.text + ": refuted, but its worst run passes"; });
   }
 
   const scenario::Resolved& r_;

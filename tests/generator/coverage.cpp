@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/coverage.hpp"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ class Walk {
       case ValueForm::Kind::map:
         for (const json::Member& member : node.members) value(member.value, *form.item, key);
         break;
-      case ValueForm::Kind::other:   // one name, or several
+      case ValueForm::Kind::other:  // one name, or several
         if (node.kind == json::Kind::array && node.items.size() > 1) keys_.insert(key + ":several");
         break;
       default:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which keys and words of the schema a scenario uses.
 #pragma once
 
@@ -9,7 +10,8 @@
 
 namespace takt::generator {
 
-/// "stream.launch" for each key that is there, "stream.encapsulation=udp" for each word of an enumeration, "latency:short" for a short form.
+/// "stream.launch" for each key that is there, "stream.encapsulation=udp" for each word of an enumeration,
+/// "latency:short" for a short form.
 using Keys = std::set<std::string, std::less<>>;
 
 Keys keys_of(const Node& scenario);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What chance decides about a scenario that is made at random.
 #pragma once
 
@@ -22,7 +23,9 @@ class Draw {
   bool one_in(std::size_t n) { return below(n) == 0; }
   bool percent(int share) { return below(100) < static_cast<std::size_t>(share); }
   template <class T>
-  const T& any(const std::vector<T>& values) { return values[below(values.size())]; }
+  const T& any(const std::vector<T>& values) {
+    return values[below(values.size())];
+  }
   /// One of the words of a text.
   std::string word(std::string_view words);
   template <class T>

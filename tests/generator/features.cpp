@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/features.hpp"
 
 #include <algorithm>
@@ -79,7 +80,9 @@ std::span<const Exclusion> exclusions() {
 }
 
 bool excludes(Feature a, Feature b) {
-  return std::ranges::any_of(exclusions(), [&](const Exclusion& each) { return (each.a == a && each.b == b) || (each.a == b && each.b == a); });
+  return std::ranges::any_of(exclusions(), [&](const Exclusion& each) {
+    return (each.a == a && each.b == b) || (each.a == b && each.b == a);
+  });
 }
 
 std::vector<std::pair<Feature, Feature>> pairs() {

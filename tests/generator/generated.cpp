@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/generated.hpp"
 
 #include <algorithm>
 #include <optional>
 
-#include "scenario/resolve/resolve.hpp"
+#include "scenario/resolve.hpp"
 #include "tests/generator/maker.hpp"
 #include "tests/generator/odd_names.hpp"
 
@@ -47,7 +48,8 @@ bool leave_out(Node& root, const std::string& pointer, std::size_t up) {
   return std::erase_if(at->members, [&](const json::Member& member) { return member.key == steps.back(); }) > 0;
 }
 
-/// What the diagnostics name is left out, or what is around it: a member that may not be missing is named again, and then more of it goes.
+/// What the diagnostics name is left out, or what is around it: a member that may not be missing is named again, and
+/// then more of it goes.
 class Repair {
  public:
   explicit Repair(Node& root) : root_(root) {}
@@ -56,7 +58,7 @@ class Repair {
     for (const json::Diagnostic& each : diagnostics.kept()) {
       if (each.severity != json::Severity::error) continue;
       const std::string& pointer = each.place.pointer;
-      if (pointer == "/network" && root_.find("allow_overload") == nullptr) {   // more load than the links carry
+      if (pointer == "/network" && root_.find("allow_overload") == nullptr) {  // more load than the links carry
         root_.add("allow_overload", Node::of_bool(true));
         return true;
       }

@@ -1,4 +1,6 @@
-// Random scenarios on 2, 3, 4 and 8 threads, divided at random, beside one thread: results, and all that can be recorded.
+// SPDX-License-Identifier: Apache-2.0
+// Random scenarios on 2, 3, 4 and 8 threads, divided at random, beside one thread: results, and all that can be
+// recorded.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -6,9 +8,9 @@
 
 #include "evaluation/evaluate.hpp"
 #include "results/result_json.hpp"
-#include "scenario/run/divided_run.hpp"
+#include "scenario/division/divided_run.hpp"
 #include "tests/generator/generated.hpp"
-#include "tests/output/recorded_run.hpp"
+#include "tests/presentation/output/recorded_run.hpp"
 #include "tests/support/case_count.hpp"
 
 namespace takt::generator {
@@ -41,23 +43,29 @@ TEST(GeneratedScenarios, HaveTheResultOfOneThread) {
       scenario::DividedRun run(resolved, division, is_shuffled ? number : 0);
       run.advance(run.end());
       ++runs_in_parts[division.parts];
-      ASSERT_EQ(run.gathered().simulation().digest().value(), whole.simulation().digest().value()) << "takt_soak --show " << number << ", " << division.parts << " parts";
+      ASSERT_EQ(run.gathered().simulation().digest().value(), whole.simulation().digest().value())
+          << "takt_soak --show " << number << ", " << division.parts << " parts";
       if (is_shuffled) continue;
-      ASSERT_EQ(result_of(run.gathered()), expected) << "takt_soak --show " << number << ", " << division.parts << " parts";
+      ASSERT_EQ(result_of(run.gathered()), expected)
+          << "takt_soak --show " << number << ", " << division.parts << " parts";
     }
     if (whole.simulation().event_count() > most_events_to_record) continue;
     ++recorded;
     const std::uint64_t shuffle = number % 3 == 0 ? number : 0;
-    const scenario::Division division = scenario::divide_at_random(resolved, threads[number % threads.size()], number + 99);
+    const scenario::Division division =
+        scenario::divide_at_random(resolved, threads[number % threads.size()], number + 99);
     const output::RecordingOptions all = output::test::all_of(resolved);
     const output::test::Files files = output::test::recorded_whole(resolved, all, shuffle);
-    ASSERT_EQ(files.at("digest"), std::to_string(whole.simulation().digest().value())) << "takt_soak --show " << number << ", recorded";
-    ASSERT_EQ(output::test::difference(files, output::test::recorded_divided(resolved, division, all, shuffle)), "") << "takt_soak --show " << number << ", " << division.parts << " parts, recorded";
+    ASSERT_EQ(files.at("digest"), std::to_string(whole.simulation().digest().value()))
+        << "takt_soak --show " << number << ", recorded";
+    ASSERT_EQ(output::test::difference(files, output::test::recorded_divided(resolved, division, all, shuffle)), "")
+        << "takt_soak --show " << number << ", " << division.parts << " parts, recorded";
   }
   // Most networks have few nodes that may be apart.
   EXPECT_GT(recorded, count / 2);
   EXPECT_GT(runs_in_parts[2] + runs_in_parts[3] + runs_in_parts[4], count);
-  for (unsigned parts = 1; parts <= 8; ++parts) RecordProperty("in_" + std::to_string(parts) + "_parts", std::to_string(runs_in_parts[parts]));
+  for (unsigned parts = 1; parts <= 8; ++parts)
+    RecordProperty("in_" + std::to_string(parts) + "_parts", std::to_string(runs_in_parts[parts]));
 }
 
 }  // namespace

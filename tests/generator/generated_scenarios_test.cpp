@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Some hundreds of random scenarios under all checks, and every scenario that once showed a bug. tools/soak makes more.
 #include <gtest/gtest.h>
 
@@ -31,7 +32,8 @@ TEST(GeneratedScenarios, NothingIsWrong) {
     if (number == 1400) continue;  // known and open: a hint by priority that a later search refutes
     const Generated made = generate(number);
     ASSERT_TRUE(made.resolved) << number << ": " << made.problem;
-    const Checked checked = check_scenario(made.text, file_name(), {.verify_events = 100'000, .most_states = 5'000, .only = {}});
+    const Checked checked =
+        check_scenario(made.text, file_name(), {.verify_events = 100'000, .most_states = 5'000, .only = {}});
     ASSERT_TRUE(checked.is_sound) << number << ": " << checked.refusal;
     EXPECT_EQ(lines(checked.findings), "") << "takt_soak --show " << number;
     for (const std::string& check : checked.done) ++done[check];
@@ -43,7 +45,8 @@ TEST(GeneratedScenarios, NothingIsWrong) {
 }
 
 TEST(GeneratedScenarios, NorWithWhatWasFound) {
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(TAKT_SOURCE_DIR) + "/tests/regression/scenarios")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(TAKT_SOURCE_DIR) + "/tests/regression/scenarios")) {
     const std::string name = entry.path().filename().string();
     if (entry.path().extension() != ".json" || name.starts_with("refused-")) continue;
     std::ostringstream text;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The generator leaves nothing out: every key of the schema, every word, every pair of features that may meet.
 #include <gtest/gtest.h>
 
@@ -22,7 +23,8 @@ TEST(Generator, KnowsEveryKey) {
 }
 
 TEST(Generator, IsDeterministic) {
-  for (const std::uint64_t number : {0ULL, 1ULL, 17ULL, 1'000'000'007ULL}) EXPECT_EQ(generate(number).text, generate(number).text) << number;
+  for (const std::uint64_t number : {0ULL, 1ULL, 17ULL, 1'000'000'007ULL})
+    EXPECT_EQ(generate(number).text, generate(number).text) << number;
 }
 
 TEST(Generator, UsesEveryKeyAndEveryPairOfFeatures) {
@@ -59,10 +61,12 @@ TEST(Generator, UsesEveryKeyAndEveryPairOfFeatures) {
   }
   EXPECT_EQ(lines(missing), "") << "never generated";
   std::string pairs_apart;
-  for (const auto& [a, b] : apart) pairs_apart += "  " + std::string(entry_of(a).name) + " and " + std::string(entry_of(b).name) + "\n";
+  for (const auto& [a, b] : apart)
+    pairs_apart += "  " + std::string(entry_of(a).name) + " and " + std::string(entry_of(b).name) + "\n";
   EXPECT_EQ(pairs_apart, "") << "never met";
   std::string all_reasons;
-  for (const auto& [reason, found] : reasons) all_reasons += "  " + std::to_string(found.first) + " times " + reason + ", such as " + found.second + "\n";
+  for (const auto& [reason, found] : reasons)
+    all_reasons += "  " + std::to_string(found.first) + " times " + reason + ", such as " + found.second + "\n";
   RecordProperty("refused_as_drawn", std::to_string(repaired));
   EXPECT_LT(repaired, tries * 3 / 10) << "too many are refused as they are drawn:\n" << all_reasons;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/maker.hpp"
 
 #include <algorithm>
@@ -39,9 +40,11 @@ const RuleBook& RuleBook::get() {
   static const RuleBook book = [] {
     RuleBook made;
     const Keys known = all_keys();
-    for (const auto& part : {network_rules(), port_rules(), ingress_rules(), traffic_rules(), fault_rules(), clock_rules(), program_rules(), application_rules(), requirement_rules()}) {
+    for (const auto& part : {network_rules(), port_rules(), ingress_rules(), traffic_rules(), fault_rules(),
+                             clock_rules(), program_rules(), application_rules(), requirement_rules()}) {
       for (const Rule& rule : part) {
-        if (!known.contains(rule.key) || !made.rules.emplace(rule.key, &rule).second) made.strays.emplace_back(rule.key);
+        if (!known.contains(rule.key) || !made.rules.emplace(rule.key, &rule).second)
+          made.strays.emplace_back(rule.key);
       }
     }
     return made;
@@ -53,8 +56,8 @@ namespace {
 
 bool needs_rule(const ValueForm& form) {
   using Kind = ValueForm::Kind;
-  return form.kind == Kind::text || form.kind == Kind::other || form.kind == Kind::number || form.kind == Kind::list || form.kind == Kind::map || form.kind == Kind::tagged ||
-         (form.kind == Kind::quantity && !form.is_duration);
+  return form.kind == Kind::text || form.kind == Kind::other || form.kind == Kind::number || form.kind == Kind::list ||
+         form.kind == Kind::map || form.kind == Kind::tagged || (form.kind == Kind::quantity && !form.is_duration);
 }
 
 }  // namespace
@@ -64,7 +67,9 @@ std::vector<std::string> keys_without_rule() {
   for (const Definition& definition : Schema::of_scenarios().definitions()) {
     for (const json::Member& property : definition.properties->members) {
       const std::string key = definition.name + "." + property.key;
-      if (property.key != definition.tag_key && !RuleBook::get().rules.contains(key) && needs_rule(Schema::of_scenarios().form_of(property.value))) missing.push_back(key);
+      if (property.key != definition.tag_key && !RuleBook::get().rules.contains(key) &&
+          needs_rule(Schema::of_scenarios().form_of(property.value)))
+        missing.push_back(key);
     }
   }
   return missing;
@@ -73,7 +78,8 @@ std::vector<std::string> keys_without_rule() {
 /// Makes the members of one object.
 class Members {
  public:
-  Members(Maker& maker, const Definition& definition, Node& object, const Scope& scope) : maker_(maker), definition_(definition), object_(object), scope_(scope) {}
+  Members(Maker& maker, const Definition& definition, Node& object, const Scope& scope)
+      : maker_(maker), definition_(definition), object_(object), scope_(scope) {}
 
   void make() {
     std::set<std::string, std::less<>> grouped;
@@ -122,7 +128,8 @@ class Members {
   const Scope& scope_;
 };
 
-Node Maker::fill(const Definition& definition, const Scope* outer, std::string name, std::size_t item, std::string_view tag) {
+Node Maker::fill(const Definition& definition, const Scope* outer, std::string name, std::size_t item,
+                 std::string_view tag) {
   Node made = Node::object();
   if (!definition.tag_key.empty()) made.add(definition.tag_key, text(tag));
   Scope scope{outer, definition.name, &made, std::move(name), item};
@@ -139,7 +146,8 @@ Node Maker::short_or_object(std::string_view definition, const Scope* outer, std
   const Definition& table = Schema::of_scenarios().definition(definition);
   Node made = object(definition, outer, std::move(name));
   // An object with only that member is what the short form stands for.
-  if (table.short_form != nullptr && made.members.size() == 1 && made.members[0].key == table.short_key && !draw.one_in(4)) {
+  if (table.short_form != nullptr && made.members.size() == 1 && made.members[0].key == table.short_key &&
+      !draw.one_in(4)) {
     Node only = std::move(made.members[0].value);
     return only;
   }
@@ -152,9 +160,11 @@ Node Maker::objects(std::string_view definition, std::size_t count, const Scope&
   return items;
 }
 
-Node Maker::option(std::string_view tagged, std::string_view tag, const Scope* outer, std::string name, std::size_t item) {
+Node Maker::option(std::string_view tagged, std::string_view tag, const Scope* outer, std::string name,
+                   std::size_t item) {
   TAKT_CHECK(std::ranges::count(Schema::of_scenarios().options(tagged), tag) == 1, "a tag of the schema");
-  return fill(Schema::of_scenarios().definition(tag == "clock" ? "clock-fault" : tag), outer, std::move(name), item, tag);
+  return fill(Schema::of_scenarios().definition(tag == "clock" ? "clock-fault" : tag), outer, std::move(name), item,
+              tag);
 }
 
 std::optional<Node> Maker::by_rule(const Node& schema, const std::string& key, const Rule* rule, const Scope& scope) {
@@ -163,7 +173,9 @@ std::optional<Node> Maker::by_rule(const Node& schema, const std::string& key, c
   const std::string chosen = draw.word(rule->words);
   const ValueForm form = Schema::of_scenarios().form_of(schema);
   if (form.kind == ValueForm::Kind::boolean) return Node::of_bool(chosen == "true");
-  const bool is_number = form.kind == ValueForm::Kind::number || (form.kind == ValueForm::Kind::other && chosen.find_first_not_of("-+.0123456789e") == std::string::npos);
+  const bool is_number =
+      form.kind == ValueForm::Kind::number ||
+      (form.kind == ValueForm::Kind::other && chosen.find_first_not_of("-+.0123456789e") == std::string::npos);
   return is_number ? Node::of_literal(chosen) : text(chosen);
 }
 
@@ -194,10 +206,14 @@ Node Maker::word(std::string_view words) {
 Node Maker::instant() {
   const std::uint64_t us = duration_us * draw.below(16) / 16;
   switch (draw.below(4)) {
-    case 0: return text(std::to_string(us) + "us");
-    case 1: return text(std::to_string(us * 1000 + draw.below(1000)) + "ns");
-    case 2: return text(std::to_string(us / 100 * 100) + "us");
-    default: return text(std::to_string(us + draw.below(std::max<std::uint64_t>(1, duration_us / 16))) + "us");
+    case 0:
+      return text(std::to_string(us) + "us");
+    case 1:
+      return text(std::to_string(us * 1000 + draw.below(1000)) + "ns");
+    case 2:
+      return text(std::to_string(us / 100 * 100) + "us");
+    default:
+      return text(std::to_string(us + draw.below(std::max<std::uint64_t>(1, duration_us / 16))) + "us");
   }
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/odd_names.hpp"
 
 #include <algorithm>

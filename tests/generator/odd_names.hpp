@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names with characters that shells, pages, tables and files treat specially.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Topics, applications, gateways and persistence services.
 #include <algorithm>
 
@@ -25,7 +26,8 @@ bool is_of_dds(const Scope& s) { return s.text("protocol") == "dds"; }
 
 Made fields(Maker& m, const Scope& s) {
   // A gateway finds fields by their names; the same in all topics.
-  if (const auto kept = m.kept.find("fields"); kept != m.kept.end() && (m.wants(Feature::gateways) || m.draw.one_in(2))) return kept->second;
+  if (const auto kept = m.kept.find("fields"); kept != m.kept.end() && (m.wants(Feature::gateways) || m.draw.one_in(2)))
+    return kept->second;
   Node made = Node::object();
   for (std::size_t i = 0; i < m.draw.between(1, 3) || i < 2; ++i) {
     const std::string name = "f" + std::to_string(i);
@@ -39,7 +41,8 @@ Made fields(Maker& m, const Scope& s) {
 Made applications(Maker& m, const Scope& s) {
   if (!wants_applications(m)) return std::nullopt;
   Node made = Node::array();
-  for (std::size_t i = 0; i < m.topics + m.draw.between(0, 2); ++i) made.items.push_back(m.object("application", &s, {}, i));
+  for (std::size_t i = 0; i < m.topics + m.draw.between(0, 2); ++i)
+    made.items.push_back(m.object("application", &s, {}, i));
   return made;
 }
 
@@ -55,7 +58,7 @@ Made threads(Maker& m, const Scope& s) {
   m.draw.shuffle(others);
   if (others.size() > 1) others.resize(m.draw.between(publishes(m, s) ? 0 : 1, 2));
   m.kept["subscribed"] = Node::array();
-  m.kept.erase("repeats");   // what the application publishes is a counter, until it says otherwise
+  m.kept.erase("repeats");  // what the application publishes is a counter, until it says otherwise
   for (const std::size_t t : others) m.kept["subscribed"].items.push_back(text(name_of(m, t)));
   Node made = Node::array();
   if (publishes(m, s)) made.items.push_back(m.object("thread", &s, name_of(m, s.number), 0));
@@ -63,7 +66,9 @@ Made threads(Maker& m, const Scope& s) {
   return made;
 }
 
-bool is_publisher(const Maker& m, const Scope& thread) { return thread.number == 0 && publishes(m, *thread.around("application")); }
+bool is_publisher(const Maker& m, const Scope& thread) {
+  return thread.number == 0 && publishes(m, *thread.around("application"));
+}
 Made published(Maker& m, const Scope& s) { return is_publisher(m, s) ? Made(text(s.name)) : std::nullopt; }
 Made subscribed(Maker& m, const Scope& s) { return is_publisher(m, s) ? std::nullopt : Made(text(s.name)); }
 
@@ -138,10 +143,14 @@ Made content_filter(Maker& m, const Scope& s) {
     if (name_of(m, i) != s.text("subscribe")) continue;
     const std::string f0 = topic(m, i).find("fields")->find("f0")->find("count") != nullptr ? "f0[0]" : "f0";
     switch (m.draw.below(4)) {
-      case 0: return text(f0 + " > 1");
-      case 1: return text("NOT (" + f0 + " = 0 OR " + f0 + " = 2)");
-      case 2: return text(f0 + " BETWEEN 0 AND 3.5");
-      default: return text(f0 + " <> " + f0);
+      case 0:
+        return text(f0 + " > 1");
+      case 1:
+        return text("NOT (" + f0 + " = 0 OR " + f0 + " = 2)");
+      case 2:
+        return text(f0 + " BETWEEN 0 AND 3.5");
+      default:
+        return text(f0 + " <> " + f0);
     }
   }
   return std::nullopt;
@@ -158,15 +167,21 @@ Node words(std::initializer_list<std::string_view> all) {
 Made network_message(Maker& m, const Scope& s) {
   const bool has_publisher = s.has("publisher") || s.around("topic")->has("publisher_id");
   switch (m.draw.below(has_publisher ? 3 : 4)) {
-    case 0: return words({"PublisherId", "GroupHeader", "WriterGroupId", "GroupVersion", "NetworkMessageNumber", "SequenceNumber"});
-    case 1: return words({"PublisherId", "GroupHeader", "WriterGroupId", "PayloadHeader", "Timestamp", "PicoSeconds"});
-    case 2: return words({"PublisherId", "GroupHeader", "WriterGroupId", "SequenceNumber", "PayloadHeader"});
-    default: return words({"GroupHeader", "WriterGroupId", "PayloadHeader"});
+    case 0:
+      return words(
+          {"PublisherId", "GroupHeader", "WriterGroupId", "GroupVersion", "NetworkMessageNumber", "SequenceNumber"});
+    case 1:
+      return words({"PublisherId", "GroupHeader", "WriterGroupId", "PayloadHeader", "Timestamp", "PicoSeconds"});
+    case 2:
+      return words({"PublisherId", "GroupHeader", "WriterGroupId", "SequenceNumber", "PayloadHeader"});
+    default:
+      return words({"GroupHeader", "WriterGroupId", "PayloadHeader"});
   }
 }
 bool has_payload_header(const Scope& s) {
   const Node* const parts = s.made->find("network_message");
-  return parts == nullptr || std::ranges::any_of(parts->items, [](const Node& each) { return each.text == "PayloadHeader"; });
+  return parts == nullptr ||
+         std::ranges::any_of(parts->items, [](const Node& each) { return each.text == "PayloadHeader"; });
 }
 
 /// Room for all fields, whatever their encoding, and whatever headers and DataValues have besides.
@@ -175,7 +190,10 @@ Made configured_size(Maker& m, const Scope& s) {
   std::uint64_t octets = 40;
   for (const json::Member& member : s.around("topic")->made->find("fields")->members) {
     const Node& field = member.value;
-    const auto number_of = [&field](const char* key) { return field.find(key) == nullptr ? std::uint64_t{0} : static_cast<std::uint64_t>(std::stoul(field.find(key)->text)); };
+    const auto number_of = [&field](const char* key) {
+      return field.find(key) == nullptr ? std::uint64_t{0}
+                                        : static_cast<std::uint64_t>(std::stoul(field.find(key)->text));
+    };
     octets += 40 + std::max<std::uint64_t>(1, number_of("count")) * (20 + number_of("max_length"));
   }
   return octets > most ? std::nullopt : Made(number(octets + m.draw.below(20)));
@@ -185,7 +203,9 @@ Made any_host(Maker& m, const Scope&) { return text(m.draw.any(m.world.hosts)); 
 Made interval(Maker& m, const Scope&) { return m.word("500us 1ms 2ms 1500us"); }
 Made phase(Maker& m, const Scope&) { return m.word("0us 100us 250us 499us"); }
 
-Made topic_of(const Maker& m, std::size_t number) { return number < m.topics ? Made(text(name_of(m, number))) : std::nullopt; }
+Made topic_of(const Maker& m, std::size_t number) {
+  return number < m.topics ? Made(text(name_of(m, number))) : std::nullopt;
+}
 
 /// What the application publishes with the same fields, if it is a counter.
 Made outgoing(Maker& m, const Scope& s) {

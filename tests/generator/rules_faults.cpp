@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes wrong, and the rerouting around it.
 #include "tests/generator/maker.hpp"
 
@@ -44,7 +45,10 @@ std::span<const Rule> fault_rules() {
       {.key = "link-down.at", .make = at},
       {.key = "link-down.for", .percent = 70, .make = lasts},
       {.key = "frame-errors.link", .make = ends},
-      {.key = "frame-errors.towards", .make = [](Maker& m, const Scope& s) -> Made { return text(s.made->find("link")->items[m.draw.below(2)].text); }},
+      {.key = "frame-errors.towards",
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return text(s.made->find("link")->items[m.draw.below(2)].text);
+       }},
       {.key = "frame-errors.loss", .percent = 50, .words = "0.1 0.01 0.5"},
       {.key = "frame-errors.burst_loss", .percent = 25},
       {.key = "frame-errors.corruption", .percent = 25, .words = "0.2 0.01"},
@@ -59,11 +63,15 @@ std::span<const Rule> fault_rules() {
       {.key = "crash.node", .make = node},
       {.key = "crash.at", .make = at},
       {.key = "crash.for", .percent = 70, .make = lasts},
-      {.key = "babble.stream", .make = [](Maker& m, const Scope&) -> Made { return text("s" + std::to_string(m.draw.below(m.streams))); }},
+      {.key = "babble.stream",
+       .make = [](Maker& m, const Scope&) -> Made { return text("s" + std::to_string(m.draw.below(m.streams))); }},
       {.key = "babble.at", .make = at},
       {.key = "babble.for", .percent = 70, .make = lasts},
       {.key = "babble.every", .percent = 60, .words = "20us 50us"},
-      {.key = "stuck-gate.node", .make = [](Maker& m, const Scope&) -> Made { return text(m.draw.any(!m.world.switches.empty() && !m.draw.one_in(4) ? m.world.switches : m.world.nodes())); }},
+      {.key = "stuck-gate.node",
+       .make = [](Maker& m, const Scope&) -> Made {
+         return text(m.draw.any(!m.world.switches.empty() && !m.draw.one_in(4) ? m.world.switches : m.world.nodes()));
+       }},
       {.key = "stuck-gate.to", .percent = 50, .make = neighbour},
       {.key = "stuck-gate.class", .words = "0 1 2 3 4 5 6 7"},
       {.key = "stuck-gate.at", .make = at},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs, their roles and nesting, and the script that calls their methods.
 #include <algorithm>
 
@@ -59,21 +60,25 @@ std::vector<std::string> offered_skills(const Maker& m) {
   return some;
 }
 bool has_roles(const Maker& m, const Scope& s) {
-  return (is(m, s, Maker::Group::roles) || (is(m, s, Maker::Group::inner) && m.inner_has_roles)) && !offered_skills(m).empty();
+  return (is(m, s, Maker::Group::roles) || (is(m, s, Maker::Group::inner) && m.inner_has_roles)) &&
+         !offered_skills(m).empty();
 }
 /// Those that may have a role of the program.
 std::vector<std::string> candidates_of(const Maker& m, const Node& program) {
   std::vector<std::string> hosts;
   for (const Node& role : program.find("roles")->items)
     for (const std::string& host : offering(m, role.find("skill")->text))
-      if (std::ranges::find(hosts, host) == hosts.end() && (program.find("master") == nullptr || host != program.find("master")->text)) hosts.push_back(host);
+      if (std::ranges::find(hosts, host) == hosts.end() &&
+          (program.find("master") == nullptr || host != program.find("master")->text))
+        hosts.push_back(host);
   return hosts;
 }
 
 Made master(Maker& m, const Scope& s) {
   // The master of an inner program is a slave of the outer one.
   if (is(m, s, Maker::Group::inner))
-    if (const std::vector<std::string> slaves = texts(program_of(m, 0)->find("slaves")); !slaves.empty()) return text(m.draw.any(slaves));
+    if (const std::vector<std::string> slaves = texts(program_of(m, 0)->find("slaves")); !slaves.empty())
+      return text(m.draw.any(slaves));
   return text(m.draw.any(m.world.hosts));
 }
 
@@ -88,7 +93,10 @@ Made slaves(Maker& m, const Scope& s) {
     others.push_back(outer.back());
   }
   // Who is nested needs a host that is not in the outer program.
-  const std::size_t most = std::min<std::size_t>(3, others.size() - (is(m, s, Maker::Group::outer) && others.size() > 3 ? 2 : others.size() > 1 ? 1 : 0));
+  const std::size_t most =
+      std::min<std::size_t>(3, others.size() - (is(m, s, Maker::Group::outer) && others.size() > 3 ? 2
+                                                : others.size() > 1                                ? 1
+                                                                                                   : 0));
   others.resize(m.draw.between(1, most));
   Node made = Node::array();
   for (const std::string& each : others) made.items.push_back(text(each));
@@ -125,7 +133,9 @@ Made paths(Maker& m, const Scope& s) {
   return list({std::move(way)});
 }
 
-Made process_data(Maker& m, const Scope& s) { return m.objects("process_data", m.wants(Feature::replies) ? 2 : m.draw.between(1, 3), s); }
+Made process_data(Maker& m, const Scope& s) {
+  return m.objects("process_data", m.wants(Feature::replies) ? 2 : m.draw.between(1, 3), s);
+}
 
 Made publisher(Maker& m, const Scope& s) {
   const Scope* const program = s.around("program");
@@ -180,13 +190,15 @@ Made call(Maker& m, const Scope& s) {
 Made called(Maker& m, const Scope& s) {
   if (s.name != "call") return std::nullopt;
   const Node& program = *program_of(m, s.number);
-  return text(s.text("call") == "Start" && program.find("variant")->text != "paper" ? program.find("master")->text : m.draw.any(members_of(program)));
+  return text(s.text("call") == "Start" && program.find("variant")->text != "paper" ? program.find("master")->text
+                                                                                    : m.draw.any(members_of(program)));
 }
 Made plug(Maker& m, const Scope& s) {
   if (s.name != "plug") return std::nullopt;
   for (std::size_t p = 0; p < m.groups.size(); ++p)
     if (program_of(m, p)->find("roles") != nullptr)
-      if (const std::vector<std::string> some = candidates_of(m, *program_of(m, p)); !some.empty()) return text(m.draw.any(some));
+      if (const std::vector<std::string> some = candidates_of(m, *program_of(m, p)); !some.empty())
+        return text(m.draw.any(some));
   return std::nullopt;
 }
 
@@ -197,40 +209,88 @@ std::span<const Rule> program_rules() {
       {.key = "scenario.programs", .percent = 100, .make = programs},
       {.key = "scenario.script", .percent = 100, .make = script},
       {.key = "program.name", .make = [](Maker&, const Scope& s) -> Made { return text(own_name(s)); }},
-      {.key = "program.variant", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return text(m.wants(Feature::paper_variant) && is(m, s, Maker::Group::plain) ? "paper" : "robust"); }},
-      {.key = "program.master", .make = [](Maker& m, const Scope& s) -> Made {
+      {.key = "program.variant",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return text(m.wants(Feature::paper_variant) && is(m, s, Maker::Group::plain) ? "paper" : "robust");
+       }},
+      {.key = "program.master",
+       .make = [](Maker& m, const Scope& s) -> Made {
          Made made = master(m, s);
          const std::vector<std::string> taken = texts(s.made->find("slaves"));
-         for (std::size_t tries = 0; tries < 20 && std::ranges::find(taken, made->text) != taken.end(); ++tries) made = tries < 10 ? master(m, s) : text(m.draw.any(m.world.hosts));
+         for (std::size_t tries = 0; tries < 20 && std::ranges::find(taken, made->text) != taken.end(); ++tries)
+           made = tries < 10 ? master(m, s) : text(m.draw.any(m.world.hosts));
          return made;
        }},
-      {.key = "program.slaves", .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return has_roles(m, s) ? std::nullopt : slaves(m, s); }},
-      {.key = "program.roles", .feature = Feature::roles, .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return has_roles(m, s) ? Made(m.objects("role", m.draw.between(1, 2), s)) : std::nullopt; }},
-      {.key = "program.candidates", .feature = Feature::roles, .percent = 25, .make = [](Maker& m, const Scope& s) -> Made {
+      {.key = "program.slaves",
+       .percent = 60,
+       .make = [](Maker& m, const Scope& s) -> Made { return has_roles(m, s) ? std::nullopt : slaves(m, s); }},
+      {.key = "program.roles",
+       .feature = Feature::roles,
+       .percent = 60,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return has_roles(m, s) ? Made(m.objects("role", m.draw.between(1, 2), s)) : std::nullopt;
+       }},
+      {.key = "program.candidates",
+       .feature = Feature::roles,
+       .percent = 25,
+       .make = [](Maker& m, const Scope& s) -> Made {
          if (!s.has("roles")) return std::nullopt;
          Node made = Node::array();
          for (const std::string& each : candidates_of(m, *s.made)) made.items.push_back(text(each));
          return made;
        }},
-      {.key = "program.absent", .feature = Feature::roles, .percent = 40, .make = [](Maker& m, const Scope& s) -> Made {
+      {.key = "program.absent",
+       .feature = Feature::roles,
+       .percent = 40,
+       .make = [](Maker& m, const Scope& s) -> Made {
          if (!s.has("roles")) return std::nullopt;
          const std::vector<std::string> some = candidates_of(m, *s.made);
          return some.empty() ? std::nullopt : Made(list({text(m.draw.any(some))}));
        }},
-      {.key = "program.announce_every", .feature = Feature::roles, .percent = 70, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made(m.word("2ms 5ms")) : std::nullopt; }},
-      {.key = "program.on_replacement", .feature = Feature::roles, .percent = 60, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made(m.word(is(m, s, Maker::Group::inner) ? "stay-halted" : "stay-halted restart")) : std::nullopt; }},
-      {.key = "program.within", .feature = Feature::nesting, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return is(m, s, Maker::Group::inner) ? Made(text("p0")) : std::nullopt; }},
-      {.key = "program.cycle", .make = [](Maker& m, const Scope&) -> Made { return m.word(m.wants(Feature::automatic_gates) ? "1ms 2ms" : m.is_slow() || m.is_long() ? "1ms 2ms" : "200us 250us 500us 1ms"); }},
+      {.key = "program.announce_every",
+       .feature = Feature::roles,
+       .percent = 70,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return s.has("roles") ? Made(m.word("2ms 5ms")) : std::nullopt;
+       }},
+      {.key = "program.on_replacement",
+       .feature = Feature::roles,
+       .percent = 60,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return s.has("roles") ? Made(m.word(is(m, s, Maker::Group::inner) ? "stay-halted" : "stay-halted restart"))
+                               : std::nullopt;
+       }},
+      {.key = "program.within",
+       .feature = Feature::nesting,
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return is(m, s, Maker::Group::inner) ? Made(text("p0")) : std::nullopt;
+       }},
+      {.key = "program.cycle",
+       .make = [](Maker& m, const Scope&) -> Made {
+         return m.word(m.wants(Feature::automatic_gates) ? "1ms 2ms"
+                       : m.is_slow() || m.is_long()      ? "1ms 2ms"
+                                                         : "200us 250us 500us 1ms");
+       }},
       {.key = "program.offset", .percent = 25, .words = "0us 20us 150us auto"},
       {.key = "program.phases", .percent = 100, .make = phases},
-      {.key = "program.publish", .percent = 40, .make = [](Maker& m, const Scope& s) -> Made { return text(is_scheduled(m, s) || m.draw.one_in(2) ? "cyclic" : "on-change"); }},
+      {.key = "program.publish",
+       .percent = 40,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return text(is_scheduled(m, s) || m.draw.one_in(2) ? "cyclic" : "on-change");
+       }},
       {.key = "program.security", .feature = Feature::security, .percent = 70},
       {.key = "program_security.mode", .percent = 60},
       {.key = "program_security.policy", .percent = 60},
-      {.key = "program.subscription", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made() : m.word("star all-to-all"); }},
+      {.key = "program.subscription",
+       .percent = 30,
+       .make = [](Maker& m, const Scope& s) -> Made { return s.has("roles") ? Made() : m.word("star all-to-all"); }},
       {.key = "program.receive_timeout", .percent = 25, .words = "3ms 5ms 20ms"},
       {.key = "program.initialisation", .percent = 70, .words = "0us 100us 500us 1ms"},
-      {.key = "program.pcp", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made {
+      {.key = "program.pcp",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made {
          if (m.wants(Feature::automatic_gates)) return s.has("roles") ? m.word("5") : Made();
          return m.draw.one_in(3) ? m.word("0 3 5 6 7") : Made();
        }},
@@ -238,12 +298,24 @@ std::span<const Rule> program_rules() {
       {.key = "program.redundancy", .feature = Feature::redundancy, .percent = 60, .words = "2"},
       {.key = "program.paths", .feature = Feature::explicit_path, .percent = 50, .make = paths},
       {.key = "program.violations", .percent = 20},
-      {.key = "program.publisher_id", .percent = 20, .make = [](Maker&, const Scope& s) -> Made { return number(1000 + 100 * s.number); }},
-      {.key = "program.process_data", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return m.wants(Feature::replies) || m.draw.one_in(2) ? process_data(m, s) : std::nullopt; }},
-      {.key = "program.replies", .feature = Feature::replies, .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.has("process_data") && !s.has("roles") ? Made(m.objects("reply", 1, s)) : std::nullopt; }},
+      {.key = "program.publisher_id",
+       .percent = 20,
+       .make = [](Maker&, const Scope& s) -> Made { return number(1000 + 100 * s.number); }},
+      {.key = "program.process_data",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return m.wants(Feature::replies) || m.draw.one_in(2) ? process_data(m, s) : std::nullopt;
+       }},
+      {.key = "program.replies",
+       .feature = Feature::replies,
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return s.has("process_data") && !s.has("roles") ? Made(m.objects("reply", 1, s)) : std::nullopt;
+       }},
       {.key = "role.name", .make = [](Maker&, const Scope& s) -> Made { return text("r" + std::to_string(s.number)); }},
       {.key = "role.skill", .make = [](Maker& m, const Scope&) -> Made { return text(m.draw.any(offered_skills(m))); }},
-      {.key = "process_data.name", .make = [](Maker&, const Scope& s) -> Made { return text("d" + std::to_string(s.number)); }},
+      {.key = "process_data.name",
+       .make = [](Maker&, const Scope& s) -> Made { return text("d" + std::to_string(s.number)); }},
       {.key = "process_data.from", .make = publisher},
       {.key = "process_data.fields", .make = fields},
       {.key = "data_field.type"},
@@ -251,12 +323,22 @@ std::span<const Rule> program_rules() {
       {.key = "reply.to", .words = "d0"},
       {.key = "reply.with", .words = "d1"},
       {.key = "script_entry.at", .words = "0us"},
-      {.key = "script_entry.program", .percent = 100, .make = [](Maker&, const Scope& s) -> Made { return s.name == "call" ? Made(text("p" + std::to_string(s.number))) : std::nullopt; }},
+      {.key = "script_entry.program",
+       .percent = 100,
+       .make = [](Maker&, const Scope& s) -> Made {
+         return s.name == "call" ? Made(text("p" + std::to_string(s.number))) : std::nullopt;
+       }},
       {.key = "script_entry.call", .percent = 100, .make = call},
       {.key = "script_entry.on", .percent = 30, .make = [](Maker& m, const Scope& s) -> Made { return called(m, s); }},
       {.key = "script_entry.join", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return plug(m, s); }},
-      {.key = "script_entry.leave", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return plug(m, s); }},
-      {.key = "script_entry.set_gates", .percent = 100, .make = [](Maker& m, const Scope& s) -> Made { return s.name == "gates" ? Made(m.object("set_gates", &s)) : std::nullopt; }},
+      {.key = "script_entry.leave",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made { return plug(m, s); }},
+      {.key = "script_entry.set_gates",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         return s.name == "gates" ? Made(m.object("set_gates", &s)) : std::nullopt;
+       }},
   };
   return rules;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/schema.hpp"
 
 #include <algorithm>
@@ -40,11 +41,14 @@ Definition::Group group_of(const Node& rule) {
 /// The member whose schema is that of the short form, but for descriptions and defaults.
 std::string key_of_short_form(const Definition& definition) {
   const auto bare = [](Node schema) {
-    std::erase_if(schema.members, [](const json::Member& member) { return member.key == "description" || member.key == "default"; });
+    std::erase_if(schema.members,
+                  [](const json::Member& member) { return member.key == "description" || member.key == "default"; });
     return json::compact(schema);
   };
-  for (const std::string_view first : {"fixed", "offset", "null"})   // where several members look alike
-    if (const Node* const property = definition.properties->find(first); property != nullptr && bare(*property) == bare(*definition.short_form)) return std::string(first);
+  for (const std::string_view first : {"fixed", "offset", "null"})  // where several members look alike
+    if (const Node* const property = definition.properties->find(first);
+        property != nullptr && bare(*property) == bare(*definition.short_form))
+      return std::string(first);
   for (const json::Member& property : definition.properties->members)
     if (bare(property.value) == bare(*definition.short_form)) return property.key;
   TAKT_CHECK(false, "a short form stands for one member");
@@ -79,7 +83,8 @@ Schema::Schema() : tree_(json::schema_tree<scenario::Scenario>("takt scenario"))
   }
   std::ranges::sort(definitions_, {}, &Definition::name);
   // "clock" is a fault and an oscillator: the fault is called by its tag and its kind.
-  for (std::size_t i = 1; i < definitions_.size(); ++i) TAKT_CHECK(definitions_[i].name != definitions_[i - 1].name, "definitions have names of their own");
+  for (std::size_t i = 1; i < definitions_.size(); ++i)
+    TAKT_CHECK(definitions_[i].name != definitions_[i - 1].name, "definitions have names of their own");
 }
 
 void Schema::add(std::string name, const Node& object, std::string tag_key) {
@@ -102,7 +107,8 @@ void Schema::add(std::string name, const Node& object, std::string tag_key) {
 }
 
 const Definition& Schema::definition(std::string_view name) const {
-  const auto found = std::ranges::lower_bound(definitions_, name, {}, [](const Definition& each) -> std::string_view { return each.name; });
+  const auto found = std::ranges::lower_bound(definitions_, name, {},
+                                              [](const Definition& each) -> std::string_view { return each.name; });
   TAKT_CHECK(found != definitions_.end() && found->name == name, "the schema has the definition");
   return *found;
 }
@@ -132,17 +138,26 @@ ValueForm Schema::form_of(const Node& schema) const {
     return form;
   }
   const std::string type = text_of(schema.find("type"));
-  if (type == "boolean") form.kind = Kind::boolean;
-  else if (type == "integer" || type == "number") form.kind = Kind::number;
-  else if (type == "string") form.kind = schema.find("pattern") != nullptr ? Kind::quantity : Kind::text;
-  else if (type == "array") form.kind = Kind::list;
-  else if (type == "object") form.kind = Kind::map;
-  else form.kind = Kind::other;
-  if (form.kind == Kind::quantity) form.is_duration = text_of(schema.find("description")).find("(a duration") != std::string::npos;
+  if (type == "boolean")
+    form.kind = Kind::boolean;
+  else if (type == "integer" || type == "number")
+    form.kind = Kind::number;
+  else if (type == "string")
+    form.kind = schema.find("pattern") != nullptr ? Kind::quantity : Kind::text;
+  else if (type == "array")
+    form.kind = Kind::list;
+  else if (type == "object")
+    form.kind = Kind::map;
+  else
+    form.kind = Kind::other;
+  if (form.kind == Kind::quantity)
+    form.is_duration = text_of(schema.find("description")).find("(a duration") != std::string::npos;
   if (form.kind == Kind::list) {
     form.item = schema.find("items");
-    if (const Node* const least = schema.find("minItems")) form.least = static_cast<std::size_t>(*json::integer_of(*least));
-    if (const Node* const most = schema.find("maxItems")) form.most = static_cast<std::size_t>(*json::integer_of(*most));
+    if (const Node* const least = schema.find("minItems"))
+      form.least = static_cast<std::size_t>(*json::integer_of(*least));
+    if (const Node* const most = schema.find("maxItems"))
+      form.most = static_cast<std::size_t>(*json::integer_of(*most));
   }
   if (form.kind == Kind::map) form.item = schema.find("additionalProperties");
   return form;

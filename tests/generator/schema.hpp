@@ -1,4 +1,6 @@
-// The schema of scenarios as the generator walks it: made from the tables of the description, so that a new key is seen by itself.
+// SPDX-License-Identifier: Apache-2.0
+// The schema of scenarios as the generator walks it: made from the tables of the description, so that a new key is seen
+// by itself.
 #pragma once
 
 #include <set>
@@ -14,8 +16,8 @@ using json::Node;
 
 /// An object that scenarios may have.
 struct Definition {
-  std::string name;                       ///< "stream"; of an option of a tagged object the tag: "host", "crash"
-  std::string tag_key;                    ///< "kind"; empty if it has none
+  std::string name;     ///< "stream"; of an option of a tagged object the tag: "host", "crash"
+  std::string tag_key;  ///< "kind"; empty if it has none
   const Node* properties = nullptr;
   std::set<std::string, std::less<>> required;
   struct Group {
@@ -23,17 +25,18 @@ struct Definition {
     std::vector<std::string> names;
   };
   std::vector<Group> groups;
-  const Node* short_form = nullptr;       ///< the schema of a value that stands for an object with one member; null if there is none
-  std::string short_key;                  ///< the member
+  const Node* short_form =
+      nullptr;            ///< the schema of a value that stands for an object with one member; null if there is none
+  std::string short_key;  ///< the member
 };
 
 /// How a value may look.
 struct ValueForm {
   enum class Kind : std::uint8_t { boolean, word, number, quantity, text, object, tagged, list, map, other } kind{};
-  std::vector<std::string> words;         ///< of an enumeration
-  std::string definition;                 ///< of an object, or of the tagged object
-  const Node* item = nullptr;             ///< of lists and maps
-  std::size_t least = 0, most = 1'000'000;///< items
+  std::vector<std::string> words;           ///< of an enumeration
+  std::string definition;                   ///< of an object, or of the tagged object
+  const Node* item = nullptr;               ///< of lists and maps
+  std::size_t least = 0, most = 1'000'000;  ///< items
   bool is_duration = false;
 };
 

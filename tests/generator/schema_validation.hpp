@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An independent validator's word on a scenario (valijson, behind a header of its own since it is heavy).
 #pragma once
 

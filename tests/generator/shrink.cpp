@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/generator/shrink.hpp"
 
 #include <algorithm>
@@ -13,8 +14,12 @@ using json::Node;
 /// Steps by number: items and members alike.
 using Place = std::vector<std::size_t>;
 
-std::size_t size_of(const Node& node) { return node.kind == json::Kind::array ? node.items.size() : node.kind == json::Kind::object ? node.members.size() : 0; }
-const Node& child(const Node& node, std::size_t n) { return node.kind == json::Kind::array ? node.items[n] : node.members[n].value; }
+std::size_t size_of(const Node& node) {
+  return node.kind == json::Kind::array ? node.items.size() : node.kind == json::Kind::object ? node.members.size() : 0;
+}
+const Node& child(const Node& node, std::size_t n) {
+  return node.kind == json::Kind::array ? node.items[n] : node.members[n].value;
+}
 
 /// All parts, those near the root first.
 std::vector<Place> places_of(const Node& root) {
@@ -23,7 +28,7 @@ std::vector<Place> places_of(const Node& root) {
     const Node* at = &root;
     for (const std::size_t step : all[i]) at = &child(*at, step);
     const Place from = all[i];
-    for (std::size_t n = size_of(*at); n > 0; --n) {   // later ones first, so that the places of the others stay
+    for (std::size_t n = size_of(*at); n > 0; --n) {  // later ones first, so that the places of the others stay
       all.push_back(from);
       all.back().push_back(n - 1);
     }
@@ -40,14 +45,17 @@ bool leave_out(Node& root, const Place& place) {
   }
   const std::size_t last = place.back();
   if (last >= size_of(*at)) return false;
-  if (at->kind == json::Kind::array) at->items.erase(at->items.begin() + static_cast<std::ptrdiff_t>(last));
-  else at->members.erase(at->members.begin() + static_cast<std::ptrdiff_t>(last));
+  if (at->kind == json::Kind::array)
+    at->items.erase(at->items.begin() + static_cast<std::ptrdiff_t>(last));
+  else
+    at->members.erase(at->members.begin() + static_cast<std::ptrdiff_t>(last));
   return true;
 }
 
 class Shrinker {
  public:
-  Shrinker(Node root, const std::function<bool(const std::string&)>& still, unsigned questions) : root_(std::move(root)), still_(still), left_(questions) {}
+  Shrinker(Node root, const std::function<bool(const std::string&)>& still, unsigned questions)
+      : root_(std::move(root)), still_(still), left_(questions) {}
 
   std::string run() {
     drop_hosts();
@@ -117,7 +125,8 @@ class Shrinker {
 
 }  // namespace
 
-std::string shrink(const std::string& text, const std::function<bool(const std::string& text)>& still, unsigned most_questions) {
+std::string shrink(const std::string& text, const std::function<bool(const std::string& text)>& still,
+                   unsigned most_questions) {
   json::Diagnostics diagnostics;
   const auto document = json::parse(text, "s.json", diagnostics);
   if (!document) return text;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is left of a scenario is what was asked for, and no more.
 #include "tests/generator/shrink.hpp"
 
@@ -14,10 +15,15 @@ std::string compact(const std::string& text) {
 }
 
 TEST(Shrink, LeavesWhatIsNeeded) {
-  const std::string text = R"({"duration": "6400us", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch"}},
+  const std::string text =
+      R"({"duration": "6400us", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch"}},
                                "links": [{"ends": ["a", "sw"]}, {"ends": ["b", "sw"]}]}, "streams": [{"name": "x"}, {"name": "y", "every": "1ms"}, {"name": "z"}]})";
-  const auto still = [](const std::string& each) { return each.find("\"y\"") != std::string::npos && each.find("\"duration\"") != std::string::npos && each.find("\"a\"") != std::string::npos; };
-  EXPECT_EQ(compact(shrink(text, still)), R"({"duration": "12us", "network": {"nodes": {"a": {}}}, "streams": [{"name": "y"}]})");
+  const auto still = [](const std::string& each) {
+    return each.find("\"y\"") != std::string::npos && each.find("\"duration\"") != std::string::npos &&
+           each.find("\"a\"") != std::string::npos;
+  };
+  EXPECT_EQ(compact(shrink(text, still)),
+            R"({"duration": "12us", "network": {"nodes": {"a": {}}}, "streams": [{"name": "y"}]})");
 }
 
 TEST(Shrink, AsksNoMoreThanItMay) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Random scenarios by the thousand, each in a process of its own: see usage().
 #include <fmt/format.h>
 
@@ -69,9 +70,9 @@ struct Options {
 /// What is known when the program starts again.
 struct State {
   std::string build;
-  std::uint64_t next = 0;                 ///< number of a scenario
+  std::uint64_t next = 0;  ///< number of a scenario
   std::uint64_t done = 0;
-  std::uint64_t repaired = 0;             ///< of them the loader refused as they were drawn
+  std::uint64_t repaired = 0;  ///< of them the loader refused as they were drawn
   std::uint64_t found = 0;
   std::map<std::string, std::uint64_t> by_check;
 };
@@ -115,7 +116,8 @@ State state_of(const std::string& path) {
   state.repaired = integer("repaired");
   state.found = integer("found");
   if (const json::Node* const checks = document->root().find("checks"))
-    for (const json::Member& each : checks->members) state.by_check[each.key] = static_cast<std::uint64_t>(json::integer_of(each.value).value_or(0));
+    for (const json::Member& each : checks->members)
+      state.by_check[each.key] = static_cast<std::uint64_t>(json::integer_of(each.value).value_or(0));
   return state;
 }
 
@@ -132,8 +134,10 @@ std::string answer_of(const Checked& checked, bool repaired, const std::string& 
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts(1);
   for (const char c : text) {
-    if (c == separator) parts.emplace_back();
-    else parts.back() += c;
+    if (c == separator)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -143,9 +147,12 @@ constexpr study::JobLimits limits = {sim::Duration::from_ps(20'000'000'000'000),
 
 std::string name_of(study::Answer::Kind kind) {
   switch (kind) {
-    case study::Answer::Kind::too_long: return "hang";
-    case study::Answer::Kind::too_large: return "memory";
-    default: return "crash";
+    case study::Answer::Kind::too_long:
+      return "hang";
+    case study::Answer::Kind::too_large:
+      return "memory";
+    default:
+      return "crash";
   }
 }
 
@@ -164,12 +171,15 @@ std::vector<Finding> check_apart(const std::string& text, const std::string& fil
   bool is_asked = false;
   study::Pool pool(1, limits,
                    [&](std::uint64_t) { return answer_of(check_scenario(text, file, {.only = only}), false, {}); });
-  pool.run([&]() -> std::optional<std::uint64_t> { return std::exchange(is_asked, true) ? std::nullopt : std::optional<std::uint64_t>(0); },
-           [&](std::uint64_t, const study::Answer& answer) {
-             findings = findings_of(answer);
-             return true;
-           },
-           [] { return interrupted == 0; });
+  pool.run(
+      [&]() -> std::optional<std::uint64_t> {
+        return std::exchange(is_asked, true) ? std::nullopt : std::optional<std::uint64_t>(0);
+      },
+      [&](std::uint64_t, const study::Answer& answer) {
+        findings = findings_of(answer);
+        return true;
+      },
+      [] { return interrupted == 0; });
   return findings;
 }
 
@@ -192,7 +202,8 @@ std::pair<std::string, std::string> shrunk(const std::string& text, const std::s
 
 class Soak {
  public:
-  Soak(Options options, State state) : options_(std::move(options)), state_(std::move(state)), begin_(std::chrono::steady_clock::now()) {}
+  Soak(Options options, State state)
+      : options_(std::move(options)), state_(std::move(state)), begin_(std::chrono::steady_clock::now()) {}
 
   int run() {
     const std::uint64_t end = state_.done + options_.count;
@@ -226,15 +237,20 @@ class Soak {
     keep();
     for (const auto& [number, finding] : todo_) shrink_finding(number, finding);
     line_.clear();
-    std::printf("%llu scenarios, %.1f %% of them repaired, %llu findings in %s\n", static_cast<unsigned long long>(state_.done), share(), static_cast<unsigned long long>(state_.found), options_.folder.c_str());
-    for (const auto& [name, count] : state_.by_check) std::printf("  %s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));
+    std::printf("%llu scenarios, %.1f %% of them repaired, %llu findings in %s\n",
+                static_cast<unsigned long long>(state_.done), share(), static_cast<unsigned long long>(state_.found),
+                options_.folder.c_str());
+    for (const auto& [name, count] : state_.by_check)
+      std::printf("  %s: %llu\n", name.c_str(), static_cast<unsigned long long>(count));
     if (interrupted != 0) return 130;
     return state_.found > 0 ? 1 : 0;
   }
 
  private:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
-  double share() const { return state_.done == 0 ? 0 : 100.0 * static_cast<double>(state_.repaired) / static_cast<double>(state_.done); }
+  double share() const {
+    return state_.done == 0 ? 0 : 100.0 * static_cast<double>(state_.repaired) / static_cast<double>(state_.done);
+  }
 
   void note(std::uint64_t number, const Finding& finding) {
     ++state_.found;
@@ -259,7 +275,8 @@ class Soak {
     if (seconds() < last_told_ + (options_.jobs > 0 ? 1 : 0)) return;
     last_told_ = seconds();
     keep();
-    line_.show(fmt::format("{} scenarios, {:.1f} a second, {:.1f} % repaired, {} findings", state_.done, static_cast<double>(state_.done - at_begin_) / seconds(), share(), state_.found));
+    line_.show(fmt::format("{} scenarios, {:.1f} a second, {:.1f} % repaired, {} findings", state_.done,
+                           static_cast<double>(state_.done - at_begin_) / seconds(), share(), state_.found));
   }
   void keep() {
     // Those under way are begun again.
@@ -300,7 +317,8 @@ int show(std::uint64_t number) {
   const Generated made = generate(number);
   std::string asked;
   for (const Feature feature : made.asked) asked += " " + std::string(entry_of(feature).name);
-  std::printf("// %llu:%s; %u repairs\n%s", static_cast<unsigned long long>(number), asked.c_str(), made.repairs, made.text.c_str());
+  std::printf("// %llu:%s; %u repairs\n%s", static_cast<unsigned long long>(number), asked.c_str(), made.repairs,
+              made.text.c_str());
   std::fputs(made.first_refusal.c_str(), stderr);
   std::fputs(made.problem.c_str(), stderr);
   return 0;
@@ -329,24 +347,39 @@ int run(const std::vector<std::string>& arguments) {
     }
     if (i + 1 == arguments.size()) throw std::invalid_argument(key + " without a value");
     const std::string& value = arguments[++i];
-    if (key == "--hours") options.hours = std::stod(value);
-    else if (key == "--count") options.count = std::stoull(value);
-    else if (key == "--first") options.first = std::stoull(value);
-    else if (key == "--jobs") options.jobs = std::max(1U, static_cast<unsigned>(std::stoul(value)));
-    else if (key == "--folder") options.folder = value;
-    else if (key == "--build") options.build = value;
-    else if (key == "--against") options.against = value;
+    if (key == "--hours")
+      options.hours = std::stod(value);
+    else if (key == "--count")
+      options.count = std::stoull(value);
+    else if (key == "--first")
+      options.first = std::stoull(value);
+    else if (key == "--jobs")
+      options.jobs = std::max(1U, static_cast<unsigned>(std::stoul(value)));
+    else if (key == "--folder")
+      options.folder = value;
+    else if (key == "--build")
+      options.build = value;
+    else if (key == "--against")
+      options.against = value;
     else if (key == "--only")
       options.only = value;
-    else if (key == "--shrink") options.shrink = value;
-    else if (key == "--show") options.show = std::stoull(value);
-    else throw std::invalid_argument("unknown option " + key);
+    else if (key == "--shrink")
+      options.shrink = value;
+    else if (key == "--show")
+      options.show = std::stoull(value);
+    else
+      throw std::invalid_argument("unknown option " + key);
   }
   if (options.show) return show(*options.show);
   if (!options.shrink.empty()) return shrink_file(options.shrink, options.files.at(0));
   if (!options.files.empty()) return check_files(options.files);
   if (!options.against.empty()) {
-    AgainstOptions how{.program = options.against, .recordings = options.recordings, .hours = options.hours, .first = options.first.value_or(0), .jobs = options.jobs, .folder = options.folder};
+    AgainstOptions how{.program = options.against,
+                       .recordings = options.recordings,
+                       .hours = options.hours,
+                       .first = options.first.value_or(0),
+                       .jobs = options.jobs,
+                       .folder = options.folder};
     if (options.count != Options().count) how.count = options.count;
     catch_signals();
     return soak_against(how, interrupted);

@@ -1,7 +1,9 @@
-// The network's skeleton: it is drawn first, and read back from the loader, so that everything else can name what is there.
+// SPDX-License-Identifier: Apache-2.0
+// The network's skeleton: it is drawn first, and read back from the loader, so that everything else can name what is
+// there.
 #include <algorithm>
 
-#include "scenario/resolve/resolve.hpp"
+#include "scenario/resolve.hpp"
 #include "sim/check.hpp"
 #include "tests/generator/maker.hpp"
 
@@ -35,8 +37,11 @@ Node any_shape(Draw& draw, bool wants_circles, bool wants_one, bool wants_statio
     made.add("hosts_per_switch", number(draw.between(2, 3)));
     return made;
   }
-  const auto add = [&](std::string_view key, std::size_t least, std::size_t most) { made.add(key, number(draw.between(least, most))); };
-  const std::string shape = draw.word(wants_circles ? "ring mesh dual-star random" : "line ring star tree mesh comb random dual-star");
+  const auto add = [&](std::string_view key, std::size_t least, std::size_t most) {
+    made.add(key, number(draw.between(least, most)));
+  };
+  const std::string shape =
+      draw.word(wants_circles ? "ring mesh dual-star random" : "line ring star tree mesh comb random dual-star");
   made.add("topology", text(shape));
   if (shape == "line") add("switches", 1, 4);
   if (shape == "ring") add("switches", 3, 5);
@@ -46,7 +51,8 @@ Node any_shape(Draw& draw, bool wants_circles, bool wants_one, bool wants_statio
     add("depth", 1, 1);
     add("fanout", 2, 3);
   }
-  if (shape == "mesh" && draw.one_in(2)) add("switches", 3, 4);
+  if (shape == "mesh" && draw.one_in(2))
+    add("switches", 3, 4);
   else if (shape == "mesh") {
     add("rows", 2, 2);
     add("columns", 2, 3);
@@ -68,7 +74,9 @@ Node any_shape(Draw& draw, bool wants_circles, bool wants_one, bool wants_statio
 Node any_network(Draw& draw, bool wants_circles, std::size_t least_hosts, bool wants_stations) {
   Node nodes = Node::object();
   Node links = Node::array();
-  const std::size_t switches = wants_circles ? draw.between(3, 5) : draw.one_in(12) && least_hosts <= 2 ? 0 : draw.between(1, 4);
+  const std::size_t switches = wants_circles                         ? draw.between(3, 5)
+                               : draw.one_in(12) && least_hosts <= 2 ? 0
+                                                                     : draw.between(1, 4);
   const std::size_t hosts = switches == 0 ? 2 : draw.between(least_hosts, 6);
   const auto sw = [](std::size_t s) { return "sw" + std::to_string(s); };
   const auto host = [](std::size_t h) { return "h" + std::to_string(h); };
@@ -78,7 +86,8 @@ Node any_network(Draw& draw, bool wants_circles, std::size_t least_hosts, bool w
     nodes.add(sw(s), node(is_station ? "station" : "switch"));
     if (s > 0) links.items.push_back(link(sw(is_star ? 0 : s - 1), sw(s)));
   }
-  if (switches > 2 && !is_star && (wants_circles || draw.one_in(3))) links.items.push_back(link(sw(switches - 1), sw(0)));
+  if (switches > 2 && !is_star && (wants_circles || draw.one_in(3)))
+    links.items.push_back(link(sw(switches - 1), sw(0)));
   // A second link between two switches, by ports that paths name.
   if (switches > 1 && !wants_stations && draw.one_in(6))
     links.items.push_back(link(sw(0) + second_link, sw(1) + second_link));
@@ -120,7 +129,8 @@ std::vector<std::string> World::nodes() const {
 
 bool World::forwards(const std::string& node) const { return std::ranges::find(switches, node) != switches.end(); }
 
-std::vector<std::string> World::path(Draw& draw, const std::string& from, const std::string& to, const std::set<std::string>& avoid) const {
+std::vector<std::string> World::path(Draw& draw, const std::string& from, const std::string& to,
+                                     const std::set<std::string>& avoid) const {
   std::vector<std::string> way = {from};
   std::set<std::string> seen = avoid;
   seen.insert(from);
@@ -142,44 +152,56 @@ std::vector<std::string> World::path(Draw& draw, const std::string& from, const 
 void Maker::lay_out() {
   const bool wants_circles = wants(Feature::redundancy) || wants(Feature::rerouting) ? !draw.one_in(8) : false;
   // Generated switches untag all of their ports or none: those without a neighbour that is a switch.
-  skeleton = wants(Feature::generated) ? generated_network(draw, wants_circles, wants(Feature::untagged) && !wants_circles && draw.one_in(2), wants(Feature::stations))
-                                       : any_network(draw, wants_circles, wants(Feature::nesting) ? 4 : 2, wants(Feature::stations));
+  skeleton = wants(Feature::generated)
+                 ? generated_network(draw, wants_circles, wants(Feature::untagged) && !wants_circles && draw.one_in(2),
+                                     wants(Feature::stations))
+                 : any_network(draw, wants_circles, wants(Feature::nesting) ? 4 : 2, wants(Feature::stations));
   Node whole = Node::object();
   whole.add("name", text("skeleton"));
   whole.add("duration", text("1ms"));
   whole.add("network", skeleton);
   json::Diagnostics diagnostics;
   const auto resolved = scenario::load_text(json::pretty(whole), "skeleton.json", {}, diagnostics);
-  TAKT_CHECK(resolved != nullptr, ("the skeleton of a network is sound: " + diagnostics.to_text() + json::pretty(skeleton)).c_str());
+  TAKT_CHECK(resolved != nullptr,
+             ("the skeleton of a network is sound: " + diagnostics.to_text() + json::pretty(skeleton)).c_str());
   for (std::size_t n = 0; n < resolved->topology.nodes.size(); ++n) {
     const scenario::TopologyNode& each = resolved->topology.nodes[n];
     if (each.is_end_station()) world.hosts.push_back(each.name);
     if (each.forwards()) world.switches.push_back(each.name);
-    for (const scenario::Neighbour& other : resolved->topology.neighbours[n]) world.neighbours[each.name].push_back(resolved->topology.nodes[other.node].name);
+    for (const scenario::Neighbour& other : resolved->topology.neighbours[n])
+      world.neighbours[each.name].push_back(resolved->topology.nodes[other.node].name);
   }
   for (const models::LinkPlan& each : resolved->topology.links)
-    world.links.emplace_back(resolved->topology.nodes[each.a.node.value].name, resolved->topology.nodes[each.b.node.value].name);
+    world.links.emplace_back(resolved->topology.nodes[each.a.node.value].name,
+                             resolved->topology.nodes[each.b.node.value].name);
 }
 
 Maker::Maker(std::uint64_t seed, std::set<Feature> wishes) : draw(seed), wishes_(std::move(wishes)) {
-  for (bool grows = true; grows;) {   // what a feature needs, and what that needs
+  for (bool grows = true; grows;) {  // what a feature needs, and what that needs
     grows = false;
     for (const FeatureEntry& entry : features())
       if (wishes_.contains(entry.feature))
         for (const Feature needed : entry.needs) grows |= wishes_.insert(needed).second;
   }
   // What waits behind a gate or for credit while a header comes.
-  if (wants(Feature::cut_through) && !wants(Feature::automatic_gates) && draw.one_in(2)) wishes_.insert(draw.one_in(3) ? Feature::shapers : Feature::gates);
+  if (wants(Feature::cut_through) && !wants(Feature::automatic_gates) && draw.one_in(2))
+    wishes_.insert(draw.one_in(3) ? Feature::shapers : Feature::gates);
   is_slow_ = wants(Feature::rates) && draw.one_in(2);
   is_long_ = wants(Feature::gptp);
-  duration_us = is_long_ ? 1000 * draw.between(60, 120) : wants(Feature::dds) || wants(Feature::opc_ua) || wants(Feature::programs) ? 1000 * draw.between(8, 24) : 1000 * draw.between(2, 6);
-  streams = wants(Feature::programs) || wants(Feature::opc_ua) || wants(Feature::dds) ? draw.between(0, 4) : draw.between(1, 6);
-  for (const Feature of_streams : {Feature::launch, Feature::multicast, Feature::explicit_path, Feature::redundancy, Feature::traces, Feature::babble})
+  duration_us = is_long_ ? 1000 * draw.between(60, 120)
+                : wants(Feature::dds) || wants(Feature::opc_ua) || wants(Feature::programs) ? 1000 * draw.between(8, 24)
+                                                                                            : 1000 * draw.between(2, 6);
+  streams = wants(Feature::programs) || wants(Feature::opc_ua) || wants(Feature::dds) ? draw.between(0, 4)
+                                                                                      : draw.between(1, 6);
+  for (const Feature of_streams : {Feature::launch, Feature::multicast, Feature::explicit_path, Feature::redundancy,
+                                   Feature::traces, Feature::babble})
     if (wants(of_streams)) streams = std::max<std::size_t>(streams, 2);
   if (wants(Feature::nesting)) groups = {Group::outer, Group::inner};
   inner_has_roles = wants(Feature::nesting) && wants(Feature::roles) && draw.one_in(2);
   if (wants(Feature::roles) && !inner_has_roles) groups.push_back(Group::roles);
-  if (wants(Feature::paper_variant) || (wants(Feature::replies) && groups.empty()) || (wants(Feature::programs) && (groups.empty() || draw.one_in(3)))) groups.push_back(Group::plain);
+  if (wants(Feature::paper_variant) || (wants(Feature::replies) && groups.empty()) ||
+      (wants(Feature::programs) && (groups.empty() || draw.one_in(3))))
+    groups.push_back(Group::plain);
   topics = draw.between(2, 3);
   if (wants(Feature::roles)) skills = {"weld", "grip"};
   lay_out();
@@ -193,8 +215,10 @@ namespace {
 Node detailed(Maker& m, const Node& skeleton, std::string_view definition, const Scope& scope) {
   Node made = m.object(definition, &scope);
   for (const json::Member& member : skeleton.members) {
-    if (Node* const there = made.find(member.key)) *there = member.value;
-    else made.members.insert(made.members.begin(), member);
+    if (Node* const there = made.find(member.key))
+      *there = member.value;
+    else
+      made.members.insert(made.members.begin(), member);
   }
   return made;
 }
@@ -202,7 +226,8 @@ Node detailed(Maker& m, const Node& skeleton, std::string_view definition, const
 std::optional<Node> nodes_of(Maker& m, const Scope& scope) {
   Node made = Node::object();
   if (const Node* const nodes = m.skeleton.find("nodes"))
-    for (const json::Member& each : nodes->members) made.add(each.key, m.option("node", each.value.find("kind")->text, &scope, each.key));
+    for (const json::Member& each : nodes->members)
+      made.add(each.key, m.option("node", each.value.find("kind")->text, &scope, each.key));
   return made;
 }
 
@@ -251,12 +276,14 @@ std::optional<Node> shape_of_skeleton(Maker&, const Scope&) { return text("?"); 
 
 /// Applications of the host, and a Program that may have a participant there; if not, its name is left out again.
 std::optional<Node> runs_of_thread(Maker& m, const Scope& s) {
-  if (s.number == 0) return std::nullopt;   // that of the protocol stack
+  if (s.number == 0) return std::nullopt;  // that of the protocol stack
   const Scope* const host = s.around("host") != nullptr ? s.around("host") : s.around("station");
   const auto number = static_cast<std::size_t>(std::ranges::find(m.world.hosts, host->name) - m.world.hosts.begin());
   Node made = Node::array();
-  if ((m.wants(Feature::opc_ua) || m.wants(Feature::dds)) && number < m.topics && s.number < 3) made.items.push_back(text("a" + std::to_string(number) + (s.number == 1 ? "" : "/th0")));
-  if (!m.groups.empty() && s.number == 1 && m.draw.one_in(2)) made.items.push_back(text("p" + std::to_string(m.draw.below(m.groups.size()))));
+  if ((m.wants(Feature::opc_ua) || m.wants(Feature::dds)) && number < m.topics && s.number < 3)
+    made.items.push_back(text("a" + std::to_string(number) + (s.number == 1 ? "" : "/th0")));
+  if (!m.groups.empty() && s.number == 1 && m.draw.one_in(2))
+    made.items.push_back(text("p" + std::to_string(m.draw.below(m.groups.size()))));
   return made.items.empty() ? std::nullopt : std::optional(made);
 }
 
@@ -264,7 +291,8 @@ std::optional<Node> stack_of_thread(Maker& m, const Scope& s) {
   if (s.number != 0) return std::nullopt;
   Node made = Node::array();
   for (const char* const part : {"receive", "transmit", "gptp"})
-    if ((std::string_view(part) != "gptp" || m.wants(Feature::gptp)) && (made.items.empty() || m.draw.one_in(2))) made.items.push_back(text(part));
+    if ((std::string_view(part) != "gptp" || m.wants(Feature::gptp)) && (made.items.empty() || m.draw.one_in(2)))
+      made.items.push_back(text(part));
   return made;
 }
 
@@ -275,7 +303,8 @@ std::optional<Node> forwarding_delay(Maker& m, const Scope&) {
 
 /// Frames that are longer than most functions expect are for networks without them.
 std::optional<Node> jumbo(Maker& m, const Scope&) {
-  for (const Feature each : {Feature::policing, Feature::ats, Feature::cqf, Feature::automatic_gates, Feature::queue_limits})
+  for (const Feature each :
+       {Feature::policing, Feature::ats, Feature::cqf, Feature::automatic_gates, Feature::queue_limits})
     if (m.wants(each) || m.is_slow()) return std::nullopt;
   return m.kept.insert_or_assign("mtu", text("9000B")).first->second;
 }
@@ -287,9 +316,18 @@ std::span<const Rule> network_rules() {
       {.key = "scenario.$schema", .percent = 5, .words = "scenario.schema.json"},
       {.key = "scenario.name", .words = "generated"},
       {.key = "scenario.description", .percent = 5, .words = "drawn"},
-      {.key = "scenario.seed", .percent = 80, .make = [](Maker& m, const Scope&) -> std::optional<Node> { return number(m.draw.below(1000)); }},
-      {.key = "scenario.warm_up", .percent = 15, .make = [](Maker& m, const Scope&) -> std::optional<Node> { return text(std::to_string(m.duration_us / 4) + "us"); }},
-      {.key = "scenario.duration", .make = [](Maker& m, const Scope&) -> std::optional<Node> { return text(std::to_string(m.duration_us) + "us"); }},
+      {.key = "scenario.seed",
+       .percent = 80,
+       .make = [](Maker& m, const Scope&) -> std::optional<Node> { return number(m.draw.below(1000)); }},
+      {.key = "scenario.warm_up",
+       .percent = 15,
+       .make = [](Maker& m, const Scope&) -> std::optional<Node> {
+         return text(std::to_string(m.duration_us / 4) + "us");
+       }},
+      {.key = "scenario.duration",
+       .make = [](Maker& m, const Scope&) -> std::optional<Node> {
+         return text(std::to_string(m.duration_us) + "us");
+       }},
       {.key = "scenario.network"},
       {.key = "scenario.allow_overload", .feature = Feature::overload, .percent = 100, .words = "true"},
       {.key = "network.nodes", .percent = 100, .make = nodes_of},
@@ -301,8 +339,12 @@ std::span<const Rule> network_rules() {
       {.key = "generator.mtu", .percent = 5, .words = "9000B"},
       {.key = "network.generate", .percent = 100, .make = generators_of},
       {.key = "link.ends", .make = name_of_skeleton},
-      {.key = "link.rate", .feature = Feature::rates, .percent = 70,
-       .make = [](Maker& m, const Scope&) -> std::optional<Node> { return m.word(m.is_slow() ? "10Mbps 100Mbps 100Mbps 1Gbps" : "100Mbps 1Gbps 2.5Gbps 10Gbps"); }},
+      {.key = "link.rate",
+       .feature = Feature::rates,
+       .percent = 70,
+       .make = [](Maker& m, const Scope&) -> std::optional<Node> {
+         return m.word(m.is_slow() ? "10Mbps 100Mbps 100Mbps 1Gbps" : "100Mbps 1Gbps 2.5Gbps 10Gbps");
+       }},
       {.key = "link.length", .words = "1m 10m 100m 2km"},
       {.key = "link.delay", .words = "0ns 50ns 500ns 3us"},
       {.key = "generator.topology", .make = shape_of_skeleton},
@@ -337,17 +379,38 @@ std::span<const Rule> network_rules() {
       {.key = "cpu.cores", .percent = 40, .words = "1 2 4"},
       {.key = "cpu.switching", .percent = 40, .words = "0us 1us 2us"},
       {.key = "cpu.slice", .percent = 30, .words = "50us 200us 1ms"},
-      {.key = "cpu.threads", .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return m.objects("cpu_thread", m.draw.between(2, 4), s); }},
-      {.key = "cpu_thread.name", .make = [](Maker&, const Scope& s) -> std::optional<Node> { return text("t" + std::to_string(s.number)); }},
+      {.key = "cpu.threads",
+       .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
+         return m.objects("cpu_thread", m.draw.between(2, 4), s);
+       }},
+      {.key = "cpu_thread.name",
+       .make = [](Maker&, const Scope& s) -> std::optional<Node> { return text("t" + std::to_string(s.number)); }},
       {.key = "cpu_thread.policy", .percent = 50},
-      {.key = "cpu_thread.priority", .percent = 70, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("policy") && s.text("policy") != "fifo" ? std::nullopt : std::optional(number(m.draw.between(1, 9))); }},
-      {.key = "cpu_thread.deadline", .percent = 100, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.text("policy") == "deadline" || m.draw.one_in(3) ? std::optional(m.word("100us 500us 2ms")) : std::nullopt; }},
-      {.key = "cpu_thread.weight", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.text("policy") == "fair" ? std::optional(m.word("1 512 2048")) : std::nullopt; }},
-      {.key = "cpu_thread.core", .percent = 30, .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
+      {.key = "cpu_thread.priority",
+       .percent = 70,
+       .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
+         return s.has("policy") && s.text("policy") != "fifo" ? std::nullopt
+                                                              : std::optional(number(m.draw.between(1, 9)));
+       }},
+      {.key = "cpu_thread.deadline",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
+         return s.text("policy") == "deadline" || m.draw.one_in(3) ? std::optional(m.word("100us 500us 2ms"))
+                                                                   : std::nullopt;
+       }},
+      {.key = "cpu_thread.weight",
+       .percent = 40,
+       .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
+         return s.text("policy") == "fair" ? std::optional(m.word("1 512 2048")) : std::nullopt;
+       }},
+      {.key = "cpu_thread.core",
+       .percent = 30,
+       .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
          const Node* const cores = s.around("cpu")->made->find("cores");
          return number(cores != nullptr && cores->text != "1" ? m.draw.below(2) : 0);
        }},
-      {.key = "cpu_thread.execution", .make = [](Maker& m, const Scope&) -> std::optional<Node> {
+      {.key = "cpu_thread.execution",
+       .make = [](Maker& m, const Scope&) -> std::optional<Node> {
          if (m.draw.one_in(2)) return m.word("2us 10us 60us");
          Node between = Node::object();
          between.add("from", m.word("0us 2us"));
@@ -360,8 +423,16 @@ std::span<const Rule> network_rules() {
       {.key = "cpu_thread.wake_up", .percent = 30},
       {.key = "cpu_thread.runs", .percent = 100, .make = runs_of_thread},
       {.key = "cpu_thread.stack", .percent = 100, .make = stack_of_thread},
-      {.key = "cpu_thread.every", .percent = 100, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("runs") || s.has("stack") ? m.draw.one_in(3) ? std::optional(m.word("500us 2ms")) : std::nullopt : std::optional(m.word("200us 500us 1ms 2ms")); }},
-      {.key = "cpu_thread.offset", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return s.has("every") ? std::optional(m.word("0us 50us 199us")) : std::nullopt; }},
+      {.key = "cpu_thread.every",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
+         return s.has("runs") || s.has("stack") ? m.draw.one_in(3) ? std::optional(m.word("500us 2ms")) : std::nullopt
+                                                : std::optional(m.word("200us 500us 1ms 2ms"));
+       }},
+      {.key = "cpu_thread.offset",
+       .percent = 40,
+       .make = [](Maker& m, const Scope& s)
+           -> std::optional<Node> { return s.has("every") ? std::optional(m.word("0us 50us 199us")) : std::nullopt; }},
       {.key = "station.os", .feature = Feature::latencies, .percent = 70},
       {.key = "station.forwarding_delay", .percent = 70, .make = forwarding_delay},
       {.key = "station.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
@@ -396,7 +467,9 @@ std::span<const Rule> network_rules() {
       {.key = "latency.min", .percent = 10, .words = "0ns 1us"},
       {.key = "latency.max", .percent = 20, .words = "50us 100us"},
       {.key = "latency.tail", .percent = 10},
-      {.key = "latency.table", .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return m.objects("table_point", m.draw.between(1, 3), s); }},
+      {.key = "latency.table",
+       .make = [](Maker& m,
+                  const Scope& s) -> std::optional<Node> { return m.objects("table_point", m.draw.between(1, 3), s); }},
       {.key = "table_point.value", .words = "0ns 3us 7us 40us"},
       {.key = "table_point.weight", .percent = 50, .words = "1 2 10"},
       {.key = "uniform.from", .words = "0ns 1us"},
@@ -415,8 +488,12 @@ std::span<const Rule> network_rules() {
       {.key = "queues.octets", .percent = 50, .words = "700B 2000B 3100B 20000B"},
       {.key = "queues.drop", .percent = 40},
       {.key = "queue_of_class.drop", .percent = 30},
-      {.key = "queues.classes", .percent = 40, .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return m.objects("queue_of_class", m.draw.between(1, 2), s); }},
-      {.key = "queue_of_class.class", .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return number(4 * s.number + m.draw.below(4)); }},
+      {.key = "queues.classes",
+       .percent = 40,
+       .make = [](Maker& m, const Scope& s)
+           -> std::optional<Node> { return m.objects("queue_of_class", m.draw.between(1, 2), s); }},
+      {.key = "queue_of_class.class",
+       .make = [](Maker& m, const Scope& s) -> std::optional<Node> { return number(4 * s.number + m.draw.below(4)); }},
       {.key = "queue_of_class.frames", .percent = 50, .words = "1 3 100"},
       {.key = "queue_of_class.octets", .percent = 50, .words = "64B 1600B 5000B"},
       {.key = "cryptography.seal", .percent = 80, .words = "200ns 1us 7us"},

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sends tagged frames, and says which came and when: the two ends of tests in a kernel (kernel_test.py).
 //
 //   frame_probe send INTERFACE VLAN PRIORITY COUNT GAP_US    frames of 60 octets to 03:00:5e:00:00:77, with SO_PRIORITY

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What takt exports for Linux, judged by Linux: Debian's own kernel in an emulated PC (kernel_lab).
 
 usage: kernel_test.py TAKT SOURCE_DIR FRAME_PROBE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // In steady state nothing allocates: global operator new counts, and after a warm-up it must not be called.
 #include <gtest/gtest.h>
 
@@ -28,8 +29,12 @@ void* counted(std::size_t size, std::size_t alignment) {
 
 void* operator new(std::size_t size) { return counted(size, 1); }
 void* operator new[](std::size_t size) { return counted(size, 1); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
-void* operator new[](std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return counted(size, static_cast<std::size_t>(alignment));
+}
 // Not inlined: GCC would see that what `new` made is given to free() and warn.
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete[](void* memory) noexcept { std::free(memory); }
@@ -68,12 +73,12 @@ TEST(Allocation, NoneOnALine) {
   line.builder.talk(large, 1000_B, PeriodicSchedule{0_us, 20_us, 0_us});
   NetworkRun run(line.builder.plan);
   EXPECT_EQ(allocations_after(run, 100_ms, 1_s), 0u);
-  EXPECT_EQ(run.stream(small).sent, 5'501u);   // 0 .. 1.1 s, both ends
+  EXPECT_EQ(run.stream(small).sent, 5'501u);  // 0 .. 1.1 s, both ends
   EXPECT_EQ(run.stream(large).sent, 55'001u);
 }
 
-/// 20 hosts around a switch, each with a random stream to the first one (together more than its link carries, with a bounded queue)
-/// and a group of five.
+/// 20 hosts around a switch, each with a random stream to the first one (together more than its link carries, with a
+/// bounded queue) and a group of five.
 NetworkPlan congested_star(Duration mean_gap) {
   PlanBuilder builder;
   const NodeIndex sw = builder.bridge("sw", 1_us);
@@ -88,20 +93,22 @@ NetworkPlan congested_star(Duration mean_gap) {
   for (std::size_t i = 1; i < hosts.size(); ++i) {
     const StreamIndex one = builder.stream(hosts[i], {hosts[0]}, {static_cast<Priority>(i % 8), 0, Octets{0}});
     builder.talk(one, Octets{static_cast<std::uint32_t>(60 * i)}, ExponentialSchedule{0_us, mean_gap});
-    const StreamIndex group = builder.stream(hosts[i], {hosts[0], hosts[(i + 1) % 20], hosts[(i + 5) % 20], hosts[(i + 9) % 20]});
+    const StreamIndex group =
+        builder.stream(hosts[i], {hosts[0], hosts[(i + 1) % 20], hosts[(i + 5) % 20], hosts[(i + 9) % 20]});
     builder.talk(group, 200_B, PeriodicSchedule{0_us, mean_gap * 3, mean_gap});
   }
   return builder.plan;
 }
 
-// 19 random streams of 60 .. 1140 octets (mean frame 642 octets on the wire with tag: 51 us at 100 Mb/s) every 400 us each offer
-// 2.4 times what the link to the first host carries. All kinds of moments occur within the first 2 s, so that pools have their size.
-// A histogram allocates when the first sample falls into an octave, as its header says; a rare latency may do that at any time, so
-// here they get all octaves first.
+// 19 random streams of 60 .. 1140 octets (mean frame 642 octets on the wire with tag: 51 us at 100 Mb/s) every 400 us
+// each offer 2.4 times what the link to the first host carries. All kinds of moments occur within the first 2 s, so
+// that pools have their size. A histogram allocates when the first sample falls into an octave, as its header says; a
+// rare latency may do that at any time, so here they get all octaves first.
 TEST(Allocation, NoneInACongestedStar) {
   NetworkRun run(congested_star(400_us));
   for (std::uint32_t i = 0; i < run.network->traffic().streams().size(); ++i)
-    for (int log2 = 0; log2 < 50; ++log2) run.network->traffic().stream(StreamIndex{i}).latency.add(1_ps * (std::int64_t{1} << log2));
+    for (int log2 = 0; log2 < 50; ++log2)
+      run.network->traffic().stream(StreamIndex{i}).latency.add(1_ps * (std::int64_t{1} << log2));
   EXPECT_EQ(allocations_after(run, 2_s, 1_s), 0u);
   std::uint64_t dropped = 0;
   std::uint64_t copies = 0;
@@ -122,7 +129,9 @@ TEST(Allocation, NoneForApplications) {
     explicit Pulse(StreamIndex stream) : stream_(stream) {}
     AlarmId alarm_count() const override { return 2; }
     void start(HostServices& host) override { host.set_alarm(0, host.now()); }
-    void receive(HostServices& host, StreamIndex, std::span<const std::byte>) override { host.set_alarm(1, host.now() + 1_ms); }
+    void receive(HostServices& host, StreamIndex, std::span<const std::byte>) override {
+      host.set_alarm(1, host.now() + 1_ms);
+    }
     void wake(HostServices& host, AlarmId alarm) override {
       if (alarm != 0) return;
       host.send(stream_, payload_);
@@ -175,7 +184,8 @@ std::uint64_t allocations_of_swings(std::uint64_t most) {
   const auto swing = [&] {
     now += 1'000'000'000;
     for (std::uint64_t i = 0; i < most; ++i)
-      queue.push({TrueTime::from_ps(now + static_cast<std::int64_t>(i * 10'000)), sim::Event::order_of(sim::Phase::arrival, {1}, {1}), i << 16, 0});
+      queue.push({TrueTime::from_ps(now + static_cast<std::int64_t>(i * 10'000)),
+                  sim::Event::order_of(sim::Phase::arrival, {1}, {1}), i << 16, 0});
     while (queue.first_time() != TrueTime::never()) static_cast<void>(queue.pop());
   };
   for (int i = 0; i < 100; ++i) swing();
@@ -186,8 +196,8 @@ std::uint64_t allocations_of_swings(std::uint64_t most) {
 
 TEST(Allocation, NoneWhileASmallPopulationSwings) { EXPECT_EQ(allocations_of_swings(60), 0u); }
 
-// BUG (reported, not fixed): each time the queue grows beyond the near part, EventQueue::spread() allocates its list of events, for
-// ever. DESIGN 3: "In steady state nothing allocates".
+// BUG (reported, not fixed): each time the queue grows beyond the near part, EventQueue::spread() allocates its list of
+// events, for ever. DESIGN 3: "In steady state nothing allocates".
 TEST(Allocation, NoneWhileALargePopulationSwings) { EXPECT_EQ(allocations_of_swings(200), 0u); }
 
 }  // namespace

@@ -1,4 +1,6 @@
-// Delays to the picosecond, derived by hand. Latency is counted from production to delivery: the last bit in, plus the fixed delays.
+// SPDX-License-Identifier: Apache-2.0
+// Delays to the picosecond, derived by hand. Latency is counted from production to delivery: the last bit in, plus the
+// fixed delays.
 #include <gtest/gtest.h>
 
 #include "tests/models/network_fixture.hpp"
@@ -32,7 +34,9 @@ Duration latency_over(Line line, Octets payload, const StreamOptions& options) {
 TEST(Delay, DirectLink) { EXPECT_EQ(latency_over({0, 1_Gbps, 50_ns}, 100_B, {}), 1'058_ns); }
 
 // Tagged 122, 130 with preamble, at 100 Mb/s 80 ns each: 10.4 us; no cable.
-TEST(Delay, DirectLinkTagged) { EXPECT_EQ(latency_over({0, 100_Mbps, 0_ns}, 100_B, {Priority{3}, 5, Octets{0}}), 10'400_ns); }
+TEST(Delay, DirectLinkTagged) {
+  EXPECT_EQ(latency_over({0, 100_Mbps, 0_ns}, 100_B, {Priority{3}, 5, Octets{0}}), 10'400_ns);
+}
 
 // A host that sends over a direct link at each rate: 126 octets.
 TEST(Delay, DirectLinkAtEveryRate) {
@@ -54,8 +58,8 @@ TEST(Delay, StoreAndForward) {
 // Each bridge adds its forwarding delay: 6 * 1058 ns + 5 * 1.5 us.
 TEST(Delay, ForwardingDelay) { EXPECT_EQ(latency_over({5, 1_Gbps, 50_ns, 1'500_ns}, 100_B, {}), 13'848_ns); }
 
-// The published validation: 1200 octets of UDP payload untagged over device - switch - switch - device, 1 Gb/s, 50 ns a cable, no
-// processing: 14 + 28 + 1200 + 4 + 8 = 1254 octets, 10.032 us; three times (10.032 + 0.05) us = 30.246 us.
+// The published validation: 1200 octets of UDP payload untagged over device - switch - switch - device, 1 Gb/s, 50 ns a
+// cable, no processing: 14 + 28 + 1200 + 4 + 8 = 1254 octets, 10.032 us; three times (10.032 + 0.05) us = 30.246 us.
 TEST(Delay, PublishedValidation) { EXPECT_EQ(latency_over({2, 1_Gbps, 50_ns}, 1200_B, udp), 30'246_ns); }
 
 // 10M, 100M, 1G, 2.5G, 10G, 100G in a row over five bridges of different forwarding delays. 126 octets each:
@@ -83,7 +87,8 @@ TEST(Delay, MixedRates) {
   EXPECT_EQ(only_latency(run.stream(back)), 127'612'080_ps);  // full duplex: the ways do not disturb each other
 }
 
-// 64 octets on the wire with and without tag, and for every payload that the padding fills: 72 * 8 ns = 576 ns to the last bit.
+// 64 octets on the wire with and without tag, and for every payload that the padding fills: 72 * 8 ns = 576 ns to the
+// last bit.
 TEST(Delay, MinimumFrame) {
   EXPECT_EQ(latency_over({0, 1_Gbps, 0_ns}, 0_B, {}), 576_ns);
   EXPECT_EQ(latency_over({0, 1_Gbps, 0_ns}, 46_B, {}), 576_ns);
@@ -94,13 +99,13 @@ TEST(Delay, MinimumFrame) {
   EXPECT_EQ(latency_over({0, 1_Gbps, 0_ns}, 43_B, tagged), 584_ns);
 }
 
-// Ten minimum frames at once: they arrive 672 ns apart (84 octets: preamble 8, frame 64, gap 12), the first after 576 ns; the
-// medium is occupied for 840 octets.
+// Ten minimum frames at once: they arrive 672 ns apart (84 octets: preamble 8, frame 64, gap 12), the first after 576
+// ns; the medium is occupied for 840 octets.
 TEST(Delay, BackToBackFramesKeepTheGap) {
   for (const bool tagged : {false, true}) {
     Line line(0, 1_Gbps, 0_ns);
-    const StreamIndex stream =
-        line.builder.stream(line.talker, {line.listener}, {tagged ? std::optional<Priority>(1) : std::nullopt, 0, Octets{0}});
+    const StreamIndex stream = line.builder.stream(line.talker, {line.listener},
+                                                   {tagged ? std::optional<Priority>(1) : std::nullopt, 0, Octets{0}});
     NetworkRun run(line.builder.plan);
     install<Sender>(*run.network, line.talker, "sender", std::vector<Sender::Item>(10, {local(5_us), stream, 20}));
     const Listener& listener = listen(*run.network, line.listener, {stream});
@@ -115,8 +120,8 @@ TEST(Delay, BackToBackFramesKeepTheGap) {
   }
 }
 
-// The gap is kept through bridges too: after a slower link frames are spread (6.72 us apart at 100 Mb/s), after a faster one they
-// keep the spacing of the slower. Two minimum frames at once over 1 Gb/s, 100 Mb/s, 1 Gb/s:
+// The gap is kept through bridges too: after a slower link frames are spread (6.72 us apart at 100 Mb/s), after a
+// faster one they keep the spacing of the slower. Two minimum frames at once over 1 Gb/s, 100 Mb/s, 1 Gb/s:
 //   first: 576 ns + 5760 ns + 576 ns = 6912 ns; second 6720 ns later, since the slow port is busy when it comes.
 TEST(Delay, TheSlowestLinkSpacesTheFrames) {
   PlanBuilder builder;
@@ -135,8 +140,9 @@ TEST(Delay, TheSlowestLinkSpacesTheFrames) {
   EXPECT_EQ(run.stream(stream).latency.maximum(), 13'632_ns);
 }
 
-// A frame that comes when the last bit of the one before is out, but within the gap, waits until the gap is over: the first
-// (64 octets) is out at 576 ns, the medium is free at 672 ns. Produced at 600 ns: starts at 672, arrives at 1248, latency 648 ns.
+// A frame that comes when the last bit of the one before is out, but within the gap, waits until the gap is over: the
+// first (64 octets) is out at 576 ns, the medium is free at 672 ns. Produced at 600 ns: starts at 672, arrives at 1248,
+// latency 648 ns.
 TEST(Delay, AFrameWithinTheGapWaits) {
   Line line(0, 1_Gbps, 0_ns);
   const StreamIndex first = line.builder.stream(line.talker, {line.listener});
@@ -151,7 +157,8 @@ TEST(Delay, AFrameWithinTheGapWaits) {
   EXPECT_EQ(only_latency(run.stream(third)), 576_ns);
 }
 
-// Two events for a frame and hop through an uncongested port at most: production, then one arrival for each of six hops.
+// Two events for a frame and hop through an uncongested port at most: production, then one arrival for each of six
+// hops.
 TEST(Delay, EventsOfAnUncongestedPath) {
   Line line(5, 1_Gbps, 50_ns, 1_us);
   const StreamIndex stream = line.builder.stream(line.talker, {line.listener});

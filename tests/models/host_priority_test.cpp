@@ -1,4 +1,6 @@
-// Untagged frames that their own host queues by a priority. Minimum frames at 1 Gb/s occupy the medium for 672 ns and are there after 576.
+// SPDX-License-Identifier: Apache-2.0
+// Untagged frames that their own host queues by a priority. Minimum frames at 1 Gb/s occupy the medium for 672 ns and
+// are there after 576.
 #include <gtest/gtest.h>
 
 #include "tests/models/network_fixture.hpp"
@@ -27,7 +29,8 @@ struct Pair {
   StreamIndex many, one;
 };
 
-// The frame goes before the two that wait: it starts at 672 ns, and has come over the switch 1152 ns later. Without the priority it is the last, 3 * 672 ns behind the first.
+// The frame goes before the two that wait: it starts at 672 ns, and has come over the switch 1152 ns later. Without the
+// priority it is the last, 3 * 672 ns behind the first.
 TEST(HostPriority, CountsAtTheHost) {
   for (const bool has_priority : {true, false}) {
     Pair pair(has_priority ? std::optional<Priority>(5) : std::nullopt);
@@ -40,7 +43,8 @@ TEST(HostPriority, CountsAtTheHost) {
   }
 }
 
-// The frame does not bear it: behind the host it is one of priority 0, in class 1, among the others. At 100 Mb/s the first frame is sent for 6.72 us, and the three others wait.
+// The frame does not bear it: behind the host it is one of priority 0, in class 1, among the others. At 100 Mb/s the
+// first frame is sent for 6.72 us, and the three others wait.
 TEST(HostPriority, EndsWithTheHost) {
   Pair pair(Priority{5}, 100_Mbps);
   NetworkRun run(pair.builder.plan);
@@ -48,7 +52,7 @@ TEST(HostPriority, EndsWithTheHost) {
   EXPECT_EQ(run.port(pair.sw, 1).queues().peak_frames(1), 3u);
   EXPECT_EQ(run.port(pair.sw, 1).queues().peak_frames(5), 0u);
   ASSERT_EQ(run.stream(pair.one).delivered, 1u);
-  EXPECT_EQ(run.stream(pair.one).latency.minimum(), 576_ns + 6'720_ns + 5'760_ns - 100_ns);   // the second
+  EXPECT_EQ(run.stream(pair.one).latency.minimum(), 576_ns + 6'720_ns + 5'760_ns - 100_ns);  // the second
 }
 
 // Where another stream has launch times in that class, frames without one are due at once.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From 2048 components on the loop looks ahead (Component::prefetch). That must change nothing.
 #include <gtest/gtest.h>
 
@@ -20,10 +21,12 @@ NetworkPlan ring() {
     builder.link(hosts.back(), bridges[i % 30], 100_Mbps, 50_ns);
   }
   for (std::size_t i = 0; i < 600; ++i) {
-    const StreamIndex one = builder.stream(hosts[i], {hosts[(i + 3) % 600]}, {static_cast<Priority>(i % 8), 0, Octets{0}});
+    const StreamIndex one =
+        builder.stream(hosts[i], {hosts[(i + 3) % 600]}, {static_cast<Priority>(i % 8), 0, Octets{0}});
     builder.talk(one, Octets{static_cast<std::uint32_t>(50 + i)}, PeriodicSchedule{0_us, 500_us, 100_us});
     if (i % 10 != 0) continue;
-    const StreamIndex group = builder.stream(hosts[i], {hosts[(i + 1) % 600], hosts[(i + 2) % 600], hosts[(i + 300) % 600]});
+    const StreamIndex group =
+        builder.stream(hosts[i], {hosts[(i + 1) % 600], hosts[(i + 2) % 600], hosts[(i + 300) % 600]});
     builder.talk(group, 100_B, ExponentialSchedule{0_us, 1_ms});
   }
   for (QueueLimit& limit : builder.plan.port_configs[0].queue_limits) limit.frames = 3;

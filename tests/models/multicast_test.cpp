@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include "tests/models/network_fixture.hpp"
@@ -28,8 +29,8 @@ struct Tree {
   StreamIndex stream;
 };
 
-// 126 octets with preamble: 1058 ns a hop. `near` after two hops, the others after three; one frame on each link, two extra copies
-// (one made by each bridge).
+// 126 octets with preamble: 1058 ns a hop. `near` after two hops, the others after three; one frame on each link, two
+// extra copies (one made by each bridge).
 TEST(Multicast, OneCopyALink) {
   Tree tree;
   tree.builder.send_at(tree.stream, 100_B, {1_us});
@@ -55,8 +56,8 @@ TEST(Multicast, OneCopyALink) {
   EXPECT_EQ(run.network->traffic().live_frames(), 0u);
 }
 
-// The copies share one record: live frames stay 1 while 1, 2, 3, 2 and 0 copies are under way. Production at 1 us; sw1 has the frame
-// at 2.058, `near` and sw2 at 3.116, the others at 4.174 us.
+// The copies share one record: live frames stay 1 while 1, 2, 3, 2 and 0 copies are under way. Production at 1 us; sw1
+// has the frame at 2.058, `near` and sw2 at 3.116, the others at 4.174 us.
 TEST(Multicast, CopiesShareOneFrame) {
   Tree tree;
   tree.builder.send_at(tree.stream, 100_B, {1_us});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of networks share: building plans, running them, and applications that send and listen by table.
 #pragma once
 
@@ -33,8 +34,8 @@ struct StreamOptions {
 };
 constexpr StreamOptions udp{std::nullopt, 0, ipv4_and_udp_headers};
 
-/// Builds a NetworkPlan node by node and link by link; streams find their way by breadth-first search, so all nodes and links come
-/// before the streams. Ports are numbered in the order of the links.
+/// Builds a NetworkPlan node by node and link by link; streams find their way by breadth-first search, so all nodes and
+/// links come before the streams. Ports are numbered in the order of the links.
 class PlanBuilder {
  public:
   NetworkPlan plan;
@@ -45,7 +46,8 @@ class PlanBuilder {
   NodeIndex bridge(const std::string& name, Duration forwarding_delay = {}, std::uint32_t port_config = 0) {
     return add({name, NodeKind::bridge, forwarding_delay, port_config, 0});
   }
-  NodeIndex station(const std::string& name, Duration forwarding_delay = {}, std::uint32_t port_config = 0, std::uint32_t os_latency = 0) {
+  NodeIndex station(const std::string& name, Duration forwarding_delay = {}, std::uint32_t port_config = 0,
+                    std::uint32_t os_latency = 0) {
     return add({name, NodeKind::station, forwarding_delay, port_config, os_latency});
   }
   void link(NodeIndex a, NodeIndex b, DataRate rate = 1_Gbps, Duration delay = {}) {
@@ -60,8 +62,8 @@ class PlanBuilder {
     return static_cast<std::uint32_t>(plan.os_latencies.size() - 1);
   }
 
-  /// One listener: unicast, on the shortest path, the same for all talkers. Several: a group address of its own, along the tree of
-  /// shortest paths from the talker.
+  /// One listener: unicast, on the shortest path, the same for all talkers. Several: a group address of its own, along
+  /// the tree of shortest paths from the talker.
   StreamIndex stream(NodeIndex talker, std::vector<NodeIndex> listeners, const StreamOptions& options = {}) {
     const bool unicast = listeners.size() == 1;
     const AddressIndex address{unicast ? listeners[0].value : first_group + groups_++};
@@ -70,10 +72,11 @@ class PlanBuilder {
       for (const Step& step : steps)
         if (plan.nodes[step.node.value].forwards() || ports_[step.node.value] > 1)
           plan.filtering.push_back({step.node, options.vlan, address, step.port});
-      if (plan.nodes[listener.value].forwards()) plan.filtering.push_back({listener, options.vlan, address, internal_port});
+      if (plan.nodes[listener.value].forwards())
+        plan.filtering.push_back({listener, options.vlan, address, internal_port});
     }
-    plan.streams.push_back({"stream" + std::to_string(plan.streams.size()), talker, address, options.vlan, options.priority,
-                            options.headers, std::move(listeners)});
+    plan.streams.push_back({"stream" + std::to_string(plan.streams.size()), talker, address, options.vlan,
+                            options.priority, options.headers, std::move(listeners)});
     return {static_cast<std::uint32_t>(plan.streams.size() - 1)};
   }
   // Not inlined: GCC 12 then sees uninitialised members in the variant that are not there.
@@ -127,7 +130,8 @@ class PlanBuilder {
   std::vector<Step> path_from_tree_of(NodeIndex root, NodeIndex talker) const {
     const std::vector<Towards> tree = tree_of(root);
     std::vector<Step> steps;
-    for (NodeIndex node = talker; node != root; node = tree[node.value].next) steps.push_back({node, tree[node.value].port});
+    for (NodeIndex node = talker; node != root; node = tree[node.value].next)
+      steps.push_back({node, tree[node.value].port});
     return steps;
   }
   /// The nodes from `root` to `listener` (listed backwards) with the port that each uses.
@@ -178,8 +182,8 @@ struct NetworkRun {
   bool started = false;
 };
 
-/// Sends payloads of given lengths at given local times; the first eight octets, if there are as many, hold the number of the frame
-/// within its stream.
+/// Sends payloads of given lengths at given local times; the first eight octets, if there are as many, hold the number
+/// of the frame within its stream.
 class Sender final : public Application {
  public:
   struct Item {
@@ -227,7 +231,8 @@ class Listener final : public Application {
   void start(HostServices&) override {}
   void receive(HostServices& host, StreamIndex stream, std::span<const std::byte> payload) override {
     Arrival arrival{host.now(), stream, 0, payload.size()};
-    if (payload.size() >= sizeof arrival.sequence) std::memcpy(&arrival.sequence, payload.data(), sizeof arrival.sequence);
+    if (payload.size() >= sizeof arrival.sequence)
+      std::memcpy(&arrival.sequence, payload.data(), sizeof arrival.sequence);
     arrivals.push_back(arrival);
   }
   void wake(HostServices&, AlarmId) override {}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Full queues: which frames are lost, why, and what is counted. Minimum frames at 1 Gb/s occupy the medium for 672 ns.
 #include <gtest/gtest.h>
 
@@ -20,17 +21,19 @@ struct Outcome {
   std::uint64_t digest = 0;
 };
 
-/// The digest of a run over the direct link: frames of 64 octets produced at the start; those with these numbers delivered one after the
-/// other from 576 ns on, every 672 ns, and then these dropped at the start for that reason. What a record says of a frame that ends is its
-/// sequence and when it was produced, which is 0 here.
-std::uint64_t digest_of(const std::vector<std::uint64_t>& delivered, const std::vector<std::uint64_t>& dropped, DropReason reason,
-                        sim::ComponentId port) {
+/// The digest of a run over the direct link: frames of 64 octets produced at the start; those with these numbers
+/// delivered one after the other from 576 ns on, every 672 ns, and then these dropped at the start for that reason.
+/// What a record says of a frame that ends is its sequence and when it was produced, which is 0 here.
+std::uint64_t digest_of(const std::vector<std::uint64_t>& delivered, const std::vector<std::uint64_t>& dropped,
+                        DropReason reason, sim::ComponentId port) {
   sim::Digest digest;
-  const std::uint64_t addressing = sim::Content(0, 0, 1, 0, 0, 0).value();  // stream 0 from node 0 to node 1; no VLAN, no priority, no tag
+  const std::uint64_t addressing =
+      sim::Content(0, 0, 1, 0, 0, 0).value();  // stream 0 from node 0 to node 1; no VLAN, no priority, no tag
   for (std::uint64_t sequence = 0; sequence < delivered.size() + dropped.size(); ++sequence)
     digest.add(3, addressing, at(0_ns), sim::joined(sequence, std::uint64_t{64} << 32 | 0));
   for (std::size_t i = 0; i < delivered.size(); ++i)
-    digest.add(1, 1, at(576_ns + 672_ns * static_cast<std::int64_t>(i)), sim::joined(delivered[i], 0));  // stream 0 at node 1
+    digest.add(1, 1, at(576_ns + 672_ns * static_cast<std::int64_t>(i)),
+               sim::joined(delivered[i], 0));  // stream 0 at node 1
   for (const std::uint64_t sequence : dropped)
     digest.add(2, port.index, at(0_ns), sim::joined(sequence, 0) ^ sim::mix64(static_cast<std::uint64_t>(reason) + 1));
   return digest.value();
@@ -67,7 +70,9 @@ Outcome send(QueueLimit limit, const std::vector<std::pair<Duration, std::size_t
 }
 
 using Sequence = std::vector<std::uint64_t>;
-std::vector<std::pair<Duration, std::size_t>> burst(std::size_t count, std::size_t payload) { return {count, {0_ns, payload}}; }
+std::vector<std::pair<Duration, std::size_t>> burst(std::size_t count, std::size_t payload) {
+  return {count, {0_ns, payload}};
+}
 
 // Six frames at once, room for two: the first is sent at once and does not count, the next two wait, three are lost.
 TEST(Overflow, ByFrames) {
@@ -144,29 +149,33 @@ TEST(Overflow, TheOldestGoes) {
   EXPECT_EQ(outcome.digest, digest_of({0, 4, 5}, {1, 2, 3}, DropReason::queue_frames, outcome.drops[0].where));
 }
 
-// Room for 200 octets: 1, 2 and 3 wait (192). The fourth, of 122, has room when 1 and 2 are gone (186); then 64 more have when 3 is gone, too.
-// One of 222 octets never has: it is lost itself, and nobody else.
+// Room for 200 octets: 1, 2 and 3 wait (192). The fourth, of 122, has room when 1 and 2 are gone (186); then 64 more
+// have when 3 is gone, too. One of 222 octets never has: it is lost itself, and nobody else.
 TEST(Overflow, AsManyOfTheOldestAsItTakes) {
-  const Outcome outcome = send({UINT32_MAX, 200, true}, {{0_ns, 8}, {0_ns, 8}, {0_ns, 8}, {0_ns, 8}, {0_ns, 104}, {0_ns, 8}});
+  const Outcome outcome =
+      send({UINT32_MAX, 200, true}, {{0_ns, 8}, {0_ns, 8}, {0_ns, 8}, {0_ns, 8}, {0_ns, 104}, {0_ns, 8}});
   EXPECT_EQ(outcome.arrived, (Sequence{0, 4, 5}));
   EXPECT_EQ(outcome.for_octets, 3u);
   EXPECT_EQ(send({UINT32_MAX, 200, true}, {{0_ns, 8}, {0_ns, 8}, {0_ns, 204}}).arrived, (Sequence{0, 1}));
   EXPECT_EQ(send({0, UINT32_MAX, true}, burst(2, 8)).arrived, (Sequence{0}));
 }
 
-// The gate is open for 2 us of 10. A frame of 1000 octets (8.064 us) never starts; the one that takes its place at 1 us (64 octets, 576 ns) does so at once, although the port had been told
-// to ask again at 10 us. At 1.5 us it would not have ended: it starts when the next window does.
+// The gate is open for 2 us of 10. A frame of 1000 octets (8.064 us) never starts; the one that takes its place at 1 us
+// (64 octets, 576 ns) does so at once, although the port had been told to ask again at 10 us. At 1.5 us it would not
+// have ended: it starts when the next window does.
 TEST(Overflow, ANewHeadMayStartAtOnce) {
   const auto arrival = [](Duration second) {
     Line line(0, 1_Gbps, 0_ns);
     PortConfig& config = line.builder.plan.port_configs[0];
     config.queue_limits.fill({1, UINT32_MAX, true});
     config.shaping.gates.emplace();
-    config.shaping.gates->admin_control_list = {{GateOperation::set_gate_states, 0xFF, 2_us}, {GateOperation::set_gate_states, 0x00, 8_us}};
+    config.shaping.gates->admin_control_list = {{GateOperation::set_gate_states, 0xFF, 2_us},
+                                                {GateOperation::set_gate_states, 0x00, 8_us}};
     config.shaping.gates->admin_cycle_time = 10_us;
     const StreamIndex stream = line.builder.stream(line.talker, {line.listener});
     NetworkRun run(line.builder.plan);
-    install<Sender>(*run.network, line.talker, "sender", std::vector<Sender::Item>{{local(0_ns), stream, 982}, {local(second), stream, 8}});
+    install<Sender>(*run.network, line.talker, "sender",
+                    std::vector<Sender::Item>{{local(0_ns), stream, 982}, {local(second), stream, 8}});
     const Listener& log = listen(*run.network, line.listener, {stream});
     run.until(1_ms);
     EXPECT_EQ(log.arrivals.size(), 1u);
@@ -193,9 +202,10 @@ TEST(Overflow, LimitsAreThoseOfTheClass) {
   EXPECT_EQ(run.stream(high).dropped[static_cast<std::size_t>(DropReason::queue_frames)], 4u);
 }
 
-// At a bridge whose egress is ten times slower than its ingress: frames of 64 octets come every 672 ns and leave every 6.72 us. Of 30
-// the first starts at once; 3 wait. A place becomes free every 6.72 us, that is every tenth frame, in the instant in which the
-// 11th and 21st come (0, 10, 20 in the count from 0), which therefore fit: 0 1 2 3 10 20 arrive.
+// At a bridge whose egress is ten times slower than its ingress: frames of 64 octets come every 672 ns and leave
+// every 6.72 us. Of 30 the first starts at once; 3 wait. A place becomes free every 6.72 us, that is every tenth frame,
+// in the instant in which the 11th and 21st come (0, 10, 20 in the count from 0), which therefore fit: 0 1 2 3 10 20
+// arrive.
 TEST(Overflow, AtABridge) {
   PlanBuilder builder;
   const NodeIndex talker = builder.host("talker");

@@ -1,5 +1,6 @@
-// What the digest of a run covers: runs that differ in anything that a frame does differ in their digest, even where the rest is the same
-// to the picosecond. Minimum frames at 1 Gb/s occupy the medium for 672 ns.
+// SPDX-License-Identifier: Apache-2.0
+// What the digest of a run covers: runs that differ in anything that a frame does differ in their digest, even where
+// the rest is the same to the picosecond. Minimum frames at 1 Gb/s occupy the medium for 672 ns.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -19,7 +20,8 @@ struct Outcome {
 };
 
 /// The sequence of frames that are sent over a direct link at these times.
-Outcome send(const std::vector<Duration>& times, const StreamOptions& options = {}, QueueLimit limit = {}, Octets payload = 8_B, Duration end = 1_ms) {
+Outcome send(const std::vector<Duration>& times, const StreamOptions& options = {}, QueueLimit limit = {},
+             Octets payload = 8_B, Duration end = 1_ms) {
   Line line(0, 1_Gbps, 0_ns);
   line.builder.plan.port_configs[0].queue_limits.fill(limit);
   const StreamIndex stream = line.builder.stream(line.talker, {line.listener}, options);
@@ -38,7 +40,8 @@ void expect_same_arrivals(const Outcome& one, const Outcome& other) {
 
 TEST(RunDigest, IsTheSameForTheSame) { EXPECT_EQ(send({0_ns, 1_us}).digest, send({0_ns, 1_us}).digest); }
 
-// The second frame waits for the first until 672 ns whenever it was handed over: it arrives at the same time, but is not as old.
+// The second frame waits for the first until 672 ns whenever it was handed over: it arrives at the same time, but is
+// not as old.
 TEST(RunDigest, CoversLatency) {
   const Outcome early = send({0_ns, 100_ns});
   const Outcome late = send({0_ns, 200_ns});
@@ -69,7 +72,8 @@ TEST(RunDigest, CoversTheAddressingOfAFrame) {
   EXPECT_NE(plain.digest, other_priority.digest);
 }
 
-// Six frames at once, room for two, counted in frames or in octets: the same are lost at the same time for another reason.
+// Six frames at once, room for two, counted in frames or in octets: the same are lost at the same time for another
+// reason.
 TEST(RunDigest, CoversTheReasonOfALoss) {
   const std::vector<Duration> burst(6, 0_ns);
   const Outcome by_frames = send(burst, {}, {2, UINT32_MAX});

@@ -1,4 +1,6 @@
-// Gate lists that have been running since before the start: in force from the first instant, somewhere in their cycle. Minimum frames at 1 Gb/s take 576 ns.
+// SPDX-License-Identifier: Apache-2.0
+// Gate lists that have been running since before the start: in force from the first instant, somewhere in their cycle.
+// Minimum frames at 1 Gb/s take 576 ns.
 #include <gtest/gtest.h>
 
 #include "models/ingress/stream_gate.hpp"
@@ -9,12 +11,14 @@ namespace {
 
 using namespace test;
 
-/// When a frame that is ready at the start has come. The gate is open for 2 us of 10, and the first cycle began, or was to begin, at `base`.
+/// When a frame that is ready at the start has come. The gate is open for 2 us of 10, and the first cycle began, or was
+/// to begin, at `base`.
 LocalTime arrival(Duration base, bool is_running, bool is_shaped = false) {
   Line line(0, 1_Gbps, 0_ns);
   ShapingConfig& shaping = line.builder.plan.port_configs[0].shaping;
   shaping.gates.emplace();
-  shaping.gates->admin_control_list = {{GateOperation::set_gate_states, 0xFF, 2_us}, {GateOperation::set_gate_states, 0x00, 8_us}};
+  shaping.gates->admin_control_list = {{GateOperation::set_gate_states, 0xFF, 2_us},
+                                       {GateOperation::set_gate_states, 0x00, 8_us}};
   shaping.gates->admin_cycle_time = 10_us;
   shaping.gates->admin_base_time = local(base);
   shaping.gates->is_running = is_running;
@@ -28,13 +32,14 @@ LocalTime arrival(Duration base, bool is_running, bool is_shaped = false) {
   return log.arrivals.empty() ? LocalTime::never() : log.arrivals[0].time;
 }
 
-// Set at the start, the list begins with the first cycle after it, at 7 us; until then all gates are open. It has been running: 3 us of the cycle are over, and the gate is closed up to 7 us.
-// With 1 us over the gate is open for another one.
+// Set at the start, the list begins with the first cycle after it, at 7 us; until then all gates are open. It has been
+// running: 3 us of the cycle are over, and the gate is closed up to 7 us. With 1 us over the gate is open for another
+// one.
 TEST(RunningGates, AreInForceFromTheStart) {
   EXPECT_EQ(arrival(-3_us, false), local(576_ns));
   EXPECT_EQ(arrival(-3_us, true), local(7'576_ns));
   EXPECT_EQ(arrival(-1_us, true), local(576_ns));
-  EXPECT_EQ(arrival(-1'500_ns, true), local(9'076_ns));   // 500 ns are too short
+  EXPECT_EQ(arrival(-1'500_ns, true), local(9'076_ns));  // 500 ns are too short
   EXPECT_EQ(arrival(-10'003_us, true), local(7'576_ns));
   EXPECT_EQ(arrival(0_us, true), local(576_ns));
 }

@@ -1,5 +1,6 @@
-// The three state machines of IEEE 802.1Q clause 8.6.9, run literally, one tick of 1 ns after the other: the oracle for what
-// models/egress/cyclic_schedule.hpp computes. Only whole nanoseconds; a copy runs on into the future.
+// SPDX-License-Identifier: Apache-2.0
+// The three state machines of IEEE 802.1Q clause 8.6.9, run literally, one tick of 1 ns after the other: the oracle for
+// what models/egress/cyclic_schedule.hpp computes. Only whole nanoseconds; a copy runs on into the future.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +31,8 @@ class ScheduleExecutor {
     bool error_counted = false;
   };
 
-  /// Goes on to instant `now`, which is one tick after the last one, with the requests for a change that come in it. The order
-  /// within an instant: a list whose time has come, the requests, Cycle Timer, List Execute.
+  /// Goes on to instant `now`, which is one tick after the last one, with the requests for a change that come in it.
+  /// The order within an instant: a list whose time has come, the requests, Cycle Timer, List Execute.
   std::vector<Change> tick(Ns now, const std::vector<Config>& requests = {}) {
     now_ = now;
     std::vector<Change> changes;
@@ -51,7 +52,7 @@ class ScheduleExecutor {
   Ns executed_at() const { return executed_at_; }
   bool config_pending() const { return config_pending_; }
   /// Operations executed since the last look, for state that lasts longer than an entry. In order.
-  std::vector<Entry> take_executed() { return std::exchange(just_executed_, {}); }
+  std::vector<Entry> drain_executed() { return std::exchange(just_executed_, {}); }
 
  private:
   /// CONFIG_PENDING: SetConfigChangeTime.
@@ -67,7 +68,8 @@ class ScheduleExecutor {
     oper_ = admin_;
     oper_cycle_time_ = oper_.cycle_time;
     config_pending_ = false;
-    set_cycle_start_time(now_);  // NewConfigCT: CYCLE_IDLE, then SET_CYCLE_START_TIME, before another request is looked at
+    set_cycle_start_time(
+        now_);  // NewConfigCT: CYCLE_IDLE, then SET_CYCLE_START_TIME, before another request is looked at
   }
 
   Ns regular_start(Ns not_before) const {

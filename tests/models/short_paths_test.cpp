@@ -1,5 +1,7 @@
-// Ports and bridges have short ways for what is so most often (models/egress, models/ingress: README.md). What comes out must be what the long way gives. Each test runs random
-// traffic twice: as it is, and with something that changes no frame but makes short ways impossible.
+// SPDX-License-Identifier: Apache-2.0
+// Ports and bridges have short ways for what is so most often (models/egress, models/ingress: README.md). What comes
+// out must be what the long way gives. Each test runs random traffic twice: as it is, and with something that changes
+// no frame but makes short ways impossible.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -18,13 +20,16 @@ constexpr int runs = 40;
 class Chance {
  public:
   explicit Chance(std::uint32_t seed) : engine_(seed) {}
-  std::int64_t operator()(std::int64_t low, std::int64_t high) { return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1)); }
+  std::int64_t operator()(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
 
  private:
   std::mt19937_64 engine_;
 };
 
-/// Two talkers, two switches, one listener; four streams in two classes, which come in bursts and alone, at instants of their own and at common ones.
+/// Two talkers, two switches, one listener; four streams in two classes, which come in bursts and alone, at instants of
+/// their own and at common ones.
 struct Traffics {
   PlanBuilder builder;
   NodeIndex second;
@@ -40,7 +45,8 @@ struct Traffics {
     builder.link(first, second, 1_Gbps, 50_ns);
     builder.link(second, listener, 1_Gbps, 50_ns);
     for (int i = 0; i < 4; ++i) {
-      const StreamIndex stream = builder.stream(talkers[i % 2], {listener}, {static_cast<Priority>(i < 2 ? 6 : 4), 0, Octets{0}});
+      const StreamIndex stream =
+          builder.stream(talkers[i % 2], {listener}, {static_cast<Priority>(i < 2 ? 6 : 4), 0, Octets{0}});
       TraceSchedule schedule;
       Duration time = Duration::from_ps(chance(0, 30) * 1'000'000);
       while (time < 2_ms) {
@@ -92,14 +98,17 @@ PortConfig with_random_gates(Chance& chance, bool with_limits) {
   GateConfig gates;
   for (int entry = 0; entry < 6; ++entry) {
     const Duration interval = Duration::from_ps(chance(3, 40) * 1'000'000);
-    gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 0 ? 0xFF : chance(0, 255)), interval});
+    gates.admin_control_list.push_back(
+        {GateOperation::set_gate_states, static_cast<GateStates>(entry == 0 ? 0xFF : chance(0, 255)), interval});
     gates.admin_cycle_time += interval;
   }
-  gates.admin_control_list[0].interval += 15_us;   // the longest frame fits into it
+  gates.admin_control_list[0].interval += 15_us;  // the longest frame fits into it
   gates.admin_cycle_time += 15_us;
   config.shaping.gates = gates;
   if (with_limits) {
-    for (QueueLimit& limit : config.queue_limits) limit = {static_cast<std::uint32_t>(chance(1, 3)), static_cast<std::uint32_t>(chance(1'600, 4'000)), chance(0, 1) == 1};
+    for (QueueLimit& limit : config.queue_limits)
+      limit = {static_cast<std::uint32_t>(chance(1, 3)), static_cast<std::uint32_t>(chance(1'600, 4'000)),
+               chance(0, 1) == 1};
   }
   return config;
 }
@@ -115,7 +124,9 @@ TEST(ShortPaths, GatesBeforeShortQueues) {
 TEST(ShortPaths, CreditBasedShapers) {
   const auto config = [](Chance& chance) {
     PortConfig shaped;
-    for (const std::size_t q : {6u, 4u}) shaped.shaping.selection[q] = CreditBased{DataRate{static_cast<std::uint64_t>(chance(50, 500)) * 1'000'000}, false};
+    for (const std::size_t q : {6u, 4u})
+      shaped.shaping.selection[q] =
+          CreditBased{DataRate{static_cast<std::uint64_t>(chance(50, 500)) * 1'000'000}, false};
     return shaped;
   };
   expect_no_difference(config, nothing, bar_by_open_gates);
@@ -132,7 +143,9 @@ TEST(ShortPaths, Preemption) { expect_no_difference(with_preemption, nothing, ba
 TEST(ShortPaths, PreemptionBehindShortQueues) {
   const auto config = [](Chance& chance) {
     PortConfig merging = with_preemption(chance);
-    for (QueueLimit& limit : merging.queue_limits) limit = {static_cast<std::uint32_t>(chance(1, 3)), static_cast<std::uint32_t>(chance(1'600, 4'000)), chance(0, 1) == 1};
+    for (QueueLimit& limit : merging.queue_limits)
+      limit = {static_cast<std::uint32_t>(chance(1, 3)), static_cast<std::uint32_t>(chance(1'600, 4'000)),
+               chance(0, 1) == 1};
     return merging;
   };
   expect_no_difference(config, nothing, bar_by_open_gates);
@@ -143,7 +156,8 @@ void police(NetworkPlan& plan, std::uint64_t rate, std::uint32_t burst) {
   IngressConfig ingress;
   for (std::uint32_t s = 0; s < plan.streams.size(); ++s) ingress.streams.push_back(plan.streams[s].name);
   // All go to one address: what tells them apart is the priority.
-  ingress.stream_identity_table.push_back({StreamHandle{0}, AddressIdentification{plan.streams[0].destination, Tagged::all, 0}, {}});
+  ingress.stream_identity_table.push_back(
+      {StreamHandle{0}, AddressIdentification{plan.streams[0].destination, Tagged::all, 0}, {}});
   FlowMeterConfig meter;
   meter.committed_information_rate = {rate};
   meter.committed_burst_size = {burst};
@@ -175,7 +189,8 @@ TEST(ShortPaths, MetersAndSchedulers) {
     bar_by_open_gates(plan);
   };
   for (const std::uint64_t rate : {30'000'000u, 150'000'000u, 600'000'000u}) {
-    expect_no_difference(config, [&](NetworkPlan& plan) { police(plan, rate, 2'000); }, bar);
+    expect_no_difference(
+        config, [&](NetworkPlan& plan) { police(plan, rate, 2'000); }, bar);
   }
 }
 
@@ -184,10 +199,13 @@ void bar_by_links_that_may_fail(NetworkPlan& plan) {
   for (LinkPlan& link : plan.links) link.may_fail = true;
 }
 
-TEST(ShortPaths, ArrivalsThatAreWithdrawn) { expect_no_difference(with_preemption, nothing, bar_by_links_that_may_fail); }
+TEST(ShortPaths, ArrivalsThatAreWithdrawn) {
+  expect_no_difference(with_preemption, nothing, bar_by_links_that_may_fail);
+}
 
 TEST(ShortPaths, ArrivalsThatAreWithdrawnFromABridgeThatPolices) {
-  expect_no_difference(with_preemption, [](NetworkPlan& plan) { police(plan, 150'000'000, 2'000); }, bar_by_links_that_may_fail);
+  expect_no_difference(
+      with_preemption, [](NetworkPlan& plan) { police(plan, 150'000'000, 2'000); }, bar_by_links_that_may_fail);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
-// Stations: a host and a bridge in one node; and hosts with several interfaces. All links 1 Gbit/s with 50 ns of cable unless a test says otherwise;
-// a payload of 100 octets is 118 octets untagged, 126 with the preamble: 1008 ns to the last bit, 1104 ns with the gap.
+// SPDX-License-Identifier: Apache-2.0
+// Stations: a host and a bridge in one node; and hosts with several interfaces. All links 1 Gbit/s with 50 ns of cable
+// unless a test says otherwise; a payload of 100 octets is 118 octets untagged, 126 with the preamble: 1008 ns to the
+// last bit, 1104 ns with the gap.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -28,7 +30,8 @@ struct Chain {
   /// When a frame that the stream's talker sends at 0 is there.
   std::vector<LocalTime> arrivals_at(NodeIndex host, StreamIndex stream) {
     NetworkRun run(builder.plan);
-    install<Sender>(*run.network, builder.plan.streams[stream.value].talker, "sender", std::vector<Sender::Item>{{local(0_ns), stream, 100}});
+    install<Sender>(*run.network, builder.plan.streams[stream.value].talker, "sender",
+                    std::vector<Sender::Item>{{local(0_ns), stream, 100}});
     const Listener& listener = listen(*run.network, host, {stream});
     run.until(1_ms);
     std::vector<LocalTime> times;
@@ -47,7 +50,7 @@ TEST(Station, ForwardsAsASwitchDoes) {
   chain.builder.send_at(through, 100_B, {0_ns});
   NetworkRun run(chain.builder.plan);
   run.until(1_ms);
-  EXPECT_EQ(run.stream(through).latency.maximum(), frame + cable + forwarding + frame + cable);   // 2616 ns
+  EXPECT_EQ(run.stream(through).latency.maximum(), frame + cable + forwarding + frame + cable);  // 2616 ns
 }
 
 TEST(Station, SendsWithoutAForwardingDelay) {
@@ -56,7 +59,7 @@ TEST(Station, SendsWithoutAForwardingDelay) {
   chain.builder.send_at(own, 100_B, {0_ns});
   NetworkRun run(chain.builder.plan);
   run.until(1_ms);
-  EXPECT_EQ(run.stream(own).latency.maximum(), frame + cable);   // 1058 ns
+  EXPECT_EQ(run.stream(own).latency.maximum(), frame + cable);  // 1058 ns
 }
 
 TEST(Station, ReceivesBehindTheForwardingDelay) {
@@ -65,12 +68,13 @@ TEST(Station, ReceivesBehindTheForwardingDelay) {
   chain.builder.send_at(in, 100_B, {0_ns});
   NetworkRun run(chain.builder.plan);
   run.until(1_ms);
-  EXPECT_EQ(run.stream(in).latency.maximum(), frame + cable + forwarding);   // 1558 ns
+  EXPECT_EQ(run.stream(in).latency.maximum(), frame + cable + forwarding);  // 1558 ns
 }
 
 TEST(Station, ReceivesBehindTheForwardingDelayAndItsOperatingSystem) {
   Chain chain;
-  chain.builder.plan.nodes[chain.station.value].os_latency = chain.builder.os_latency({.receive = sim::Distribution::constant(7_us)});
+  chain.builder.plan.nodes[chain.station.value].os_latency =
+      chain.builder.os_latency({.receive = sim::Distribution::constant(7_us)});
   const StreamIndex in = chain.builder.stream(chain.left, {chain.station});
   chain.builder.send_at(in, 100_B, {0_ns});
   NetworkRun run(chain.builder.plan);
@@ -78,7 +82,8 @@ TEST(Station, ReceivesBehindTheForwardingDelayAndItsOperatingSystem) {
   EXPECT_EQ(run.stream(in).latency.maximum(), frame + cable + forwarding + 7_us);
 }
 
-// What comes through is at the port at 1558 ns. A frame of the station's own that started at 1000 ns has the medium until 2008 + 96 ns.
+// What comes through is at the port at 1558 ns. A frame of the station's own that started at 1000 ns has the medium
+// until 2008 + 96 ns.
 TEST(Station, ItsOwnFramesCompeteWithThoseThatItForwards) {
   Chain chain;
   const StreamIndex through = chain.builder.stream(chain.left, {chain.right});
@@ -88,10 +93,11 @@ TEST(Station, ItsOwnFramesCompeteWithThoseThatItForwards) {
   NetworkRun run(chain.builder.plan);
   run.until(1_ms);
   EXPECT_EQ(run.stream(own).latency.maximum(), frame + cable);
-  EXPECT_EQ(run.stream(through).latency.maximum(), 1000_ns + frame + gap + frame + cable);   // 3162 ns
+  EXPECT_EQ(run.stream(through).latency.maximum(), 1000_ns + frame + gap + frame + cable);  // 3162 ns
 }
 
-// At one instant what comes through goes first, whichever event was handled first: the own frame starts at 1558 + 1104 ns.
+// At one instant what comes through goes first, whichever event was handled first: the own frame starts at 1558 + 1104
+// ns.
 TEST(Station, AtOneInstantWhatComesThroughGoesFirst) {
   for (const std::uint64_t shuffle : {0u, 1u, 2u, 3u, 4u, 5u}) {
     Chain chain;
@@ -102,12 +108,12 @@ TEST(Station, AtOneInstantWhatComesThroughGoesFirst) {
     NetworkRun run(chain.builder.plan, 1, shuffle);
     run.until(1_ms);
     EXPECT_EQ(run.stream(through).latency.maximum(), 2616_ns);
-    EXPECT_EQ(run.stream(own).latency.maximum(), 2 * frame + gap + cable);   // 2162 ns
+    EXPECT_EQ(run.stream(own).latency.maximum(), 2 * frame + gap + cable);  // 2162 ns
   }
 }
 
-// Tagged frames of 122 octets, 130 with the preamble: 1040 ns. The header is 22 octets and the tag: 26 * 8 = 208 ns, so the frame begins to leave at 758 ns. The
-// station's host has it when it is stored, at 1040 + 550 ns.
+// Tagged frames of 122 octets, 130 with the preamble: 1040 ns. The header is 22 octets and the tag: 26 * 8 = 208 ns, so
+// the frame begins to leave at 758 ns. The station's host has it when it is stored, at 1040 + 550 ns.
 TEST(Station, CutsThroughAndGivesItsHostWholeFrames) {
   PortConfig config;
   config.cut_through = only(6);
@@ -117,12 +123,13 @@ TEST(Station, CutsThroughAndGivesItsHostWholeFrames) {
   EXPECT_EQ(chain.arrivals_at(chain.right, all), std::vector<LocalTime>{local(208_ns + 550_ns + 1040_ns + cable)});
 }
 
-// An own frame of 1500 octets is on the medium when an express frame is there, at 1590 ns (tagged): 198 octets and 3/4 of one have left, preamble included. With the 199th it ends,
-// mCRC (4 octets) and gap (12) follow: (199 + 16) * 8 = 1720 ns.
+// An own frame of 1500 octets is on the medium when an express frame is there, at 1590 ns (tagged): 198 octets and 3/4
+// of one have left, preamble included. With the 199th it ends, mCRC (4 octets) and gap (12) follow: (199 + 16) * 8 =
+// 1720 ns.
 TEST(Station, CutsItsOwnFramesForExpressOnes) {
   PortConfig config;
   config.preemption.emplace();
-  config.preemption->preemptable = only(1);   // priority 0
+  config.preemption->preemptable = only(1);  // priority 0
   Chain chain(config);
   const StreamIndex through = chain.builder.stream(chain.left, {chain.right}, tagged(6));
   const StreamIndex own = chain.builder.stream(chain.station, {chain.right}, tagged(0));
@@ -149,7 +156,7 @@ TEST(Station, TakesOffTagsOfItsOwnFramesToo) {
   chain.builder.send_at(own, 100_B, {0_ns});
   NetworkRun run(chain.builder.plan);
   run.until(1_ms);
-  EXPECT_EQ(run.stream(own).latency.maximum(), frame + cable);   // of the untagged frame
+  EXPECT_EQ(run.stream(own).latency.maximum(), frame + cable);  // of the untagged frame
 }
 
 // One power supply: while it is down nothing goes through, nothing is sent or received.
@@ -168,19 +175,20 @@ TEST(Station, ACrashTakesBothParts) {
   run.until(1_ms);
   EXPECT_EQ(run.stream(through).delivered, 2u);
   EXPECT_EQ(run.stream(own).delivered, 2u);
-  EXPECT_EQ(run.stream(own).sent, 2u);   // a host that is down produces nothing
+  EXPECT_EQ(run.stream(own).sent, 2u);  // a host that is down produces nothing
   EXPECT_EQ(run.stream(in).delivered, 2u);
 }
 
-// Down from 40 us; from 60 us on the relay makes one cable of 100 ns of two: 1008 + 100 ns, without a forwarding delay. From 150 us on all is dark again, and from
-// 170 us on the station forwards.
+// Down from 40 us; from 60 us on the relay makes one cable of 100 ns of two: 1008 + 100 ns, without a forwarding delay.
+// From 150 us on all is dark again, and from 170 us on the station forwards.
 TEST(Station, ABypassJoinsTheCablesOfOneThatIsDown) {
   Chain chain;
   for (LinkPlan& link : chain.builder.plan.links) link.may_fail = true;
   const StreamIndex there = chain.builder.stream(chain.left, {chain.right});
   const StreamIndex back = chain.builder.stream(chain.right, {chain.left});
   const StreamIndex in = chain.builder.stream(chain.left, {chain.station});
-  for (const StreamIndex stream : {there, back}) chain.builder.send_at(stream, 100_B, {0_us, 50_us, 70_us, 160_us, 200_us});
+  for (const StreamIndex stream : {there, back})
+    chain.builder.send_at(stream, 100_B, {0_us, 50_us, 70_us, 160_us, 200_us});
   chain.builder.send_at(in, 100_B, {80_us});
   NetworkRun run(chain.builder.plan);
   const auto at_the_time = [&](Duration time, const auto& what) {
@@ -194,11 +202,11 @@ TEST(Station, ABypassJoinsTheCablesOfOneThatIsDown) {
   run.until(1_ms);
   for (const StreamIndex stream : {there, back}) {
     EXPECT_EQ(run.stream(stream).delivered, 3u);
-    EXPECT_EQ(run.stream(stream).latency.minimum(), frame + 2 * cable);                                // 1108 ns
-    EXPECT_EQ(run.stream(stream).latency.maximum(), frame + cable + forwarding + frame + cable);       // 2616 ns
+    EXPECT_EQ(run.stream(stream).latency.minimum(), frame + 2 * cable);                           // 1108 ns
+    EXPECT_EQ(run.stream(stream).latency.maximum(), frame + cable + forwarding + frame + cable);  // 2616 ns
     EXPECT_EQ(run.stream(stream).dropped[static_cast<std::size_t>(DropReason::link_down)], 2u);
   }
-  EXPECT_EQ(run.stream(in).delivered, 0u);   // there is nobody; the frame comes to the right host, which it is not for
+  EXPECT_EQ(run.stream(in).delivered, 0u);  // there is nobody; the frame comes to the right host, which it is not for
   EXPECT_EQ(run.stream(in).dropped[static_cast<std::size_t>(DropReason::no_filtering_entry)], 1u);
 }
 
@@ -213,7 +221,7 @@ TEST(Station, ABypassThatOpensCutsWhatIsOnIt) {
   run.network->set_node(chain.station, false);
   run.until(20_us);
   run.network->set_bypass(chain.station, true);
-  run.until(72_us);   // the second frame has begun and not ended
+  run.until(72_us);  // the second frame has begun and not ended
   run.network->set_bypass(chain.station, false);
   run.until(1_ms);
   EXPECT_EQ(run.stream(there).delivered, 1u);
@@ -223,7 +231,8 @@ TEST(Station, ABypassThatOpensCutsWhatIsOnIt) {
 // Two stations that are down side by side: three cables are one. A cut of any of them is a cut of all.
 TEST(Station, BypassesJoinInARow) {
   PlanBuilder builder;
-  const NodeIndex left = builder.host("left"), one = builder.station("one", forwarding), two = builder.station("two", forwarding), right = builder.host("right");
+  const NodeIndex left = builder.host("left"), one = builder.station("one", forwarding),
+                  two = builder.station("two", forwarding), right = builder.host("right");
   builder.link(left, one, 1_Gbps, cable);
   builder.link(one, two, 1_Gbps, cable);
   builder.link(two, right, 1_Gbps, cable);
@@ -242,7 +251,7 @@ TEST(Station, BypassesJoinInARow) {
   run.network->set_link(1, true);
   run.until(300_us);
   EXPECT_EQ(run.stream(there).delivered, 2u);
-  run.network->set_bypass(two, false);   // one joins left to two, which is back
+  run.network->set_bypass(two, false);  // one joins left to two, which is back
   run.network->set_node(two, true);
   run.until(1_ms);
   EXPECT_EQ(run.stream(there).delivered, 3u);
@@ -267,7 +276,8 @@ TEST(HostWithTwoInterfaces, SendsByTheOneThatLeadsThere) {
   EXPECT_EQ(run.stream(to_right).latency.maximum(), frame + cable);
 }
 
-// Frames that come by both interfaces at one instant are taken in by the order of the interfaces, whichever event was handled first.
+// Frames that come by both interfaces at one instant are taken in by the order of the interfaces, whichever event was
+// handled first.
 TEST(HostWithTwoInterfaces, TakesInTheFramesOfAnInstantByPort) {
   for (const std::uint64_t shuffle : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u}) {
     PlanBuilder builder;

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Breaks the sources in one place at a time and expects that a test, or a probe, notices.
 
 usage: mutants.py --build FOLDER --table FILE.json [--below src/FOLDER] [--programs NAME...] [--sample N] [--only NAME] [--jobs N] [--print]

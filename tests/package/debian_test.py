@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The Debian packages: made of this build, looked at by lintian, installed in a bare Debian 12 where debootstrap can make one.
 
 usage: debian_test.py TAKT BUILD_FOLDER SOURCE_FOLDER [--bare]

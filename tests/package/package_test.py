@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Installs the library into a folder, builds projects of their own against it, and lets the example speak to takt node.
 
 usage: package_test.py TAKT BUILD_FOLDER COMPILER TESTS_FOLDER

@@ -1,4 +1,6 @@
-// What random scenarios once showed is checked as they are: digest in any order, bounds, verify. See tests/generator/check_scenario.hpp.
+// SPDX-License-Identifier: Apache-2.0
+// What random scenarios once showed is checked as they are: digest in any order, bounds, verify. See
+// tests/generator/check_scenario.hpp.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -17,7 +19,8 @@ TEST(Regression, EveryCheck) {
     text << std::ifstream(file).rdbuf();
     const generator::Checked checked = generator::check_scenario(text.str(), file);
     EXPECT_TRUE(checked.is_sound) << file << "\n" << checked.refusal;
-    for (const generator::Finding& finding : checked.findings) ADD_FAILURE() << file << ": " << finding.check << ": " << finding.message;
+    for (const generator::Finding& finding : checked.findings)
+      ADD_FAILURE() << file << ": " << finding.check << ": " << finding.message;
   }
 }
 

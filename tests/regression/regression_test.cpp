@@ -1,18 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every scenario that once showed a bug: it runs now without one, or is refused with a reason.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "scenario/resolve/resolve.hpp"
+#include "scenario/resolve.hpp"
 #include "tests/regression/files.hpp"
 #include "tests/wire_checker/verify.hpp"
 
 namespace takt {
 namespace {
 
-
 /// Files whose names begin so ask for what cannot be.
-bool is_to_be_refused(const std::string& file) { return std::filesystem::path(file).filename().string().starts_with("refused-"); }
+bool is_to_be_refused(const std::string& file) {
+  return std::filesystem::path(file).filename().string().starts_with("refused-");
+}
 
 TEST(Regression, EveryScenario) {
   ASSERT_FALSE(regression::files_of("scenarios").empty());

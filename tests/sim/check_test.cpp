@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A failed CHECK says what, where, when and with which seed.
 #include "sim/check.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/digest.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +29,8 @@ TEST(Digest, EmptyIsZero) { EXPECT_EQ(Digest().value(), 0u); }
 TEST(Digest, TheOrderOfRecordsDoesNotMatter) {
   std::vector<Record> records = {{1, 2, 3, 4}, {2, 2, 3, 4}, {1, 2, 3, 5}, {1, 9, 3, 4}};
   const std::uint64_t expected = digest_of(records);
-  std::sort(records.begin(), records.end(), [](const Record& a, const Record& b) { return a.what + a.who > b.what + b.who; });
+  std::sort(records.begin(), records.end(),
+            [](const Record& a, const Record& b) { return a.what + a.who > b.what + b.who; });
   do {
     EXPECT_EQ(digest_of(records), expected);
   } while (std::next_permutation(records.begin(), records.end(), [](const Record& a, const Record& b) {
@@ -90,8 +92,8 @@ TEST(Digest, MixesWell) {
   EXPECT_NEAR(static_cast<double>(changed) / trials, 32.0, 2.1);
 }
 
-// Pinned: the digest of a run never changes between versions of the program. Computed independently (a few lines of Python)
-// from the definition in digest.hpp.
+// Pinned: the digest of a run never changes between versions of the program. Computed independently (a few lines of
+// Python) from the definition in digest.hpp.
 TEST(Digest, PinnedValues) {
   EXPECT_EQ(mix64(0), 0u);
   EXPECT_EQ(mix64(1), 0x5692161D100B05E5ULL);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/distribution.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +39,8 @@ Moments normal_moments(long double mean, long double sd) {
 }
 /// E[X^k] = Gamma(1 + k / shape) in units of the scale.
 Moments weibull_moments(long double shape) {
-  return {std::tgamma(1 + 1 / shape), std::tgamma(1 + 2 / shape), std::tgamma(1 + 3 / shape), std::tgamma(1 + 4 / shape)};
+  return {std::tgamma(1 + 1 / shape), std::tgamma(1 + 2 / shape), std::tgamma(1 + 3 / shape),
+          std::tgamma(1 + 4 / shape)};
 }
 /// E[X^k] = exp(k^2 sigma^2 / 2) in units of the median.
 Moments log_normal_moments(long double sigma) {
@@ -58,18 +60,24 @@ std::vector<Row> rows() {
       {"uniform", Distribution::uniform(2_us, 5_us), 1_us, uniform_moments(2, 5)},
       {"normal", Distribution::normal(100_us, 7_us), 1_us, normal_moments(100, 7)},
       // Moments by quadrature of the density.
-      {"truncated", Distribution::truncated_normal(20_us, 10_us, 15_us, 40_us), 1_us, {24.457437782754383L, 635.8256465104715L, 17500.7668141514L, 506859.04372950824L}},
+      {"truncated",
+       Distribution::truncated_normal(20_us, 10_us, 15_us, 40_us),
+       1_us,
+       {24.457437782754383L, 635.8256465104715L, 17500.7668141514L, 506859.04372950824L}},
       {"exponential", Distribution::exponential(30_us), 30_us, {1, 2, 6, 24}},
       {"weibull_0_8", Distribution::weibull(10_us, 0.8), 10_us, weibull_moments(0.8L)},
       {"weibull_3", Distribution::weibull(10_us, 3.0), 10_us, weibull_moments(3)},
       {"log_normal", Distribution::log_normal(20_us, 0.4), 20_us, log_normal_moments(0.4L)},
-      {"empirical", Distribution::empirical({{1_us, 3}, {9_us, 1}}), 1_us, mix(point_moments(1), 0.75L, point_moments(9))},
-      {"mixture", Distribution::mixture(Distribution::uniform(0_us, 2_us), Distribution::exponential(10_us), 200'000'000), 1_us,
+      {"empirical", Distribution::empirical({{1_us, 3}, {9_us, 1}}), 1_us,
+       mix(point_moments(1), 0.75L, point_moments(9))},
+      {"mixture",
+       Distribution::mixture(Distribution::uniform(0_us, 2_us), Distribution::exponential(10_us), 200'000'000), 1_us,
        mix(uniform_moments(0, 2), 0.8L, {10, 200, 6'000, 240'000})},
   };
 }
 
-// Mean and variance of 10^5 draws within 4 standard errors: sigma / sqrt n for the mean, sqrt((mu4 - sigma^4) / n) for the variance.
+// Mean and variance of 10^5 draws within 4 standard errors: sigma / sqrt n for the mean, sqrt((mu4 - sigma^4) / n) for
+// the variance.
 TEST(Distribution, MeansAndVariances) {
   constexpr int n = 100'000;
   for (const Row& row : rows()) {
@@ -81,7 +89,8 @@ TEST(Distribution, MeansAndVariances) {
     long double sum = 0;
     long double squares = 0;
     for (int i = 0; i < n; ++i) {
-      const long double x = static_cast<long double>(row.distribution.draw(stream).ps()) / static_cast<long double>(row.scale.ps());
+      const long double x =
+          static_cast<long double>(row.distribution.draw(stream).ps()) / static_cast<long double>(row.scale.ps());
       sum += x;
       squares += (x - m1) * (x - m1);
     }
@@ -91,8 +100,8 @@ TEST(Distribution, MeansAndVariances) {
   }
 }
 
-// Three draws of each kind, to the picosecond, on every machine. Computed independently (Python: the published generator, libm, and
-// statistics.NormalDist for the normal quantile).
+// Three draws of each kind, to the picosecond, on every machine. Computed independently (Python: the published
+// generator, libm, and statistics.NormalDist for the normal quantile).
 TEST(Distribution, PinnedDraws) {
   const std::map<std::string, std::array<std::int64_t, 3>> expected = {
       {"uniform", {4'752'716, 2'616'143, 2'191'631}},
@@ -113,17 +122,21 @@ TEST(Distribution, PinnedDraws) {
   }
 }
 
-// By quadrature, see rows(); cut off at its mean on one side a normal distribution has the mean of half a one, sqrt(2 / pi) deviations away; far from its ends it is not cut off at all. Between
-// ends that are close together it is almost uniform.
+// By quadrature, see rows(); cut off at its mean on one side a normal distribution has the mean of half a one, sqrt(2 /
+// pi) deviations away; far from its ends it is not cut off at all. Between ends that are close together it is almost
+// uniform.
 TEST(Distribution, MeanOfATruncatedOne) {
-  const auto mean = [](Duration low, Duration high) { return Distribution::truncated_normal(20_us, 10_us, low, high).truncated_mean().ps(); };
+  const auto mean = [](Duration low, Duration high) {
+    return Distribution::truncated_normal(20_us, 10_us, low, high).truncated_mean().ps();
+  };
   EXPECT_NEAR(static_cast<double>(mean(15_us, 40_us)), 24'457'437.78, 1.5);
   EXPECT_NEAR(static_cast<double>(mean(20_us, Duration::max())), 20e6 + 10e6 * std::sqrt(2 / 3.14159265358979), 1.5);
   EXPECT_EQ(mean(Duration::from_ps(-1'000'000'000), 1_s), 20'000'000);
   EXPECT_NEAR(static_cast<double>(mean(19_us, 22_us)), 20'500'000, 20'000);
 }
 
-// The comment says: one draw of the stream each, two for a mixture. So a change of parameters does not shift later draws.
+// The comment says: one draw of the stream each, two for a mixture. So a change of parameters does not shift later
+// draws.
 TEST(Distribution, DrawsOnceAMixtureTwice) {
   for (const Row& row : rows()) {
     RandomStream stream = stream_of("count");
@@ -219,7 +232,8 @@ TEST(Distribution, EmpiricalFrequencies) {
   EXPECT_THROW(Distribution::empirical({{1_us, 0}}), InvariantBroken);
 }
 
-// Tables in which every weight is 1 take a shorter way; a point of weight 0 forces the general one. The draws are the same.
+// Tables in which every weight is 1 take a shorter way; a point of weight 0 forces the general one. The draws are the
+// same.
 TEST(Distribution, EqualWeightsDrawTheSameAsTheGeneralTable) {
   const Distribution equal = Distribution::empirical({{5_us, 1}, {2_us, 1}, {8_us, 1}});
   const Distribution general = Distribution::empirical({{5_us, 1}, {2_us, 1}, {8_us, 1}, {1_us, 0}});
@@ -236,7 +250,8 @@ TEST(Distribution, EqualWeightsDrawTheSameAsTheGeneralTable) {
 }
 
 TEST(Distribution, MixtureTakesTheTailWithItsProbability) {
-  const Distribution d = Distribution::mixture(Distribution::constant(1_us), Distribution::constant(100_us), 10'000'000);
+  const Distribution d =
+      Distribution::mixture(Distribution::constant(1_us), Distribution::constant(100_us), 10'000'000);
   RandomStream stream = stream_of("tail");
   int tails = 0;
   for (int i = 0; i < 100'000; ++i) tails += d.draw(stream) == 100_us ? 1 : 0;
@@ -246,7 +261,8 @@ TEST(Distribution, MixtureTakesTheTailWithItsProbability) {
   EXPECT_FALSE(d.is_constant());
   EXPECT_THROW(Distribution::mixture(d, Distribution::constant(1_us), 1), InvariantBroken);
   const Distribution never = Distribution::mixture(Distribution::constant(1_us), Distribution::constant(2_us), 0);
-  const Distribution always = Distribution::mixture(Distribution::constant(1_us), Distribution::constant(2_us), 1'000'000'000);
+  const Distribution always =
+      Distribution::mixture(Distribution::constant(1_us), Distribution::constant(2_us), 1'000'000'000);
   for (int i = 0; i < 100; ++i) {
     EXPECT_EQ(never.draw(stream), 1_us);
     EXPECT_EQ(always.draw(stream), 2_us);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The queue against a sorted set: the same events in the same order, whatever the layout inside.
 #include "sim/event_queue.hpp"
 
@@ -22,12 +23,15 @@ class Pair {
   std::int64_t now() const { return now_; }
 
   void push_at(std::int64_t time, std::uint32_t target = 0) {
-    const Event event{TrueTime::from_ps(time), Event::order_of(Phase::arrival, {target}, {1}), serial_ << 16, serial_ * 3};
+    const Event event{TrueTime::from_ps(time), Event::order_of(Phase::arrival, {target}, {1}), serial_ << 16,
+                      serial_ * 3};
     ++serial_;
     queue_.push(event);
     oracle_.insert(event);
   }
-  void push_after(std::uint64_t delay) { push_at(now_ + static_cast<std::int64_t>(delay), static_cast<std::uint32_t>(mix64(serial_) % 5)); }
+  void push_after(std::uint64_t delay) {
+    push_at(now_ + static_cast<std::int64_t>(delay), static_cast<std::uint32_t>(mix64(serial_) % 5));
+  }
 
   /// False at the first difference.
   bool pop() {
@@ -37,7 +41,7 @@ class Pair {
     if (queue_.first_time() != expected.time) return false;
     const Event event = queue_.pop();
     now_ = event.time.ps();
-    if (++popped_ % 512 == 0) queue_.tune(512);   // as a simulation does
+    if (++popped_ % 512 == 0) queue_.tune(512);  // as a simulation does
     return event.time == expected.time && event.order == expected.order && event.serial_kind == expected.serial_kind &&
            event.argument == expected.argument;
   }
@@ -90,8 +94,10 @@ TEST_P(EventQueueLoad, HoldsTheOrder) {
   for (int i = 0; i < 100'000; ++i) {
     ASSERT_TRUE(pair.pop()) << "operation " << i;
     // Weeks pass too quickly under far time-outs alone; stay within the 106 days.
-    if (pair.now() < 2'000'000'000'000'000'000) pair.push_after(GetParam().delay(chance));
-    else if (pair.size() < GetParam().population) pair.push_after(chance.below(1'000'000));
+    if (pair.now() < 2'000'000'000'000'000'000)
+      pair.push_after(GetParam().delay(chance));
+    else if (pair.size() < GetParam().population)
+      pair.push_after(chance.below(1'000'000));
   }
   EXPECT_TRUE(pair.drain_to(0));
 }
@@ -100,14 +106,16 @@ INSTANTIATE_TEST_SUITE_P(Loads, EventQueueLoad,
                          testing::Values(Load{"one", wide, 1}, Load{"array", wide, 30}, Load{"array_limit", wide, 41},
                                          Load{"near_only_limit", wide, 65}, Load{"hundreds", wide, 257},
                                          Load{"calendar", wide, 1'000}, Load{"large_calendar", wide, 50'000},
-                                         Load{"dense", near, 5'000}, Load{"one_instant", at_once, 3'000}, Load{"small_instant", at_once, 50},
-                                         Load{"clusters", clusters, 3'000}, Load{"edges", edges, 1'000}, Load{"many_edges", edges, 20'000},
-                                         Load{"mixed_small", mixed, 300},
-                                         Load{"mixed_large", mixed, 20'000}, Load{"logarithmic_small", logarithmic, 100},
+                                         Load{"dense", near, 5'000}, Load{"one_instant", at_once, 3'000},
+                                         Load{"small_instant", at_once, 50}, Load{"clusters", clusters, 3'000},
+                                         Load{"edges", edges, 1'000}, Load{"many_edges", edges, 20'000},
+                                         Load{"mixed_small", mixed, 300}, Load{"mixed_large", mixed, 20'000},
+                                         Load{"logarithmic_small", logarithmic, 100},
                                          Load{"logarithmic_large", logarithmic, 3'000}),
                          [](const auto& param_info) { return std::string(param_info.param.name); });
 
-// First few components at work, then many, closer and closer to one another: buckets that were right at first hold hundreds, until they are laid out anew.
+// First few components at work, then many, closer and closer to one another: buckets that were right at first hold
+// hundreds, until they are laid out anew.
 TEST(EventQueue, BecomesDense) {
   RandomStream chance(3, "dense", "event queue");
   Pair pair;
@@ -144,9 +152,9 @@ TEST(EventQueue, CrossesLongSilence) {
   EXPECT_TRUE(pair.drain_to(0));
 }
 
-// Far events in pairs, one on the edge of a bucket (a high power of two is an edge at every width) and one right before it. When the
-// first of a pair is popped, an event comes that belongs between the two. The many near events make the buckets so narrow that
-// each pair lies beyond the horizon until its time has come.
+// Far events in pairs, one on the edge of a bucket (a high power of two is an edge at every width) and one right before
+// it. When the first of a pair is popped, an event comes that belongs between the two. The many near events make the
+// buckets so narrow that each pair lies beyond the horizon until its time has come.
 TEST(EventQueue, FarEventsOnTheEdgesOfBuckets) {
   Pair pair;
   for (std::uint64_t i = 0; i < 2'000; ++i) pair.push_after(i);
@@ -189,8 +197,8 @@ TEST(EventQueue, AnyMixOfPushesAndPops) {
   }));
 }
 
-// BUG (reported, not fixed): more than a few events (16) within one calendar span of the end of time, once the calendar is in use.
-// advance() computes horizon_ = near_end_ + width * (buckets - 1) beyond 2^63, which overflows; then
+// BUG (reported, not fixed): more than a few events (16) within one calendar span of the end of time, once the calendar
+// is in use. advance() computes horizon_ = near_end_ + width * (buckets - 1) beyond 2^63, which overflows; then
 // CHECK(!near_.empty(), "an occupied bucket holds an event") fails.
 TEST(EventQueue, EventsNearTheEndOfTime) {
   Pair pair;

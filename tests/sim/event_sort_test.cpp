@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sorting without guesses against std::sort: the same events, the last one first, whatever they have in common.
 #include "sim/event_sort.hpp"
 
@@ -11,13 +12,15 @@
 namespace takt::sim {
 namespace {
 
-bool is_same(const Event& a, const Event& b) { return a.time == b.time && a.order == b.order && a.serial_kind == b.serial_kind && a.argument == b.argument; }
+bool is_same(const Event& a, const Event& b) {
+  return a.time == b.time && a.order == b.order && a.serial_kind == b.serial_kind && a.argument == b.argument;
+}
 
 /// How alike the events are.
 struct Likeness {
-  std::int64_t start;      ///< of the span of time
+  std::int64_t start;  ///< of the span of time
   int span_log2;
-  std::uint64_t times;     ///< so many different ones, at most
+  std::uint64_t times;  ///< so many different ones, at most
   std::uint32_t phases;
   std::uint32_t targets;
   std::uint32_t first_target;
@@ -26,7 +29,8 @@ struct Likeness {
 Event any_event(const Likeness& likeness, std::uint64_t number, RandomStream& chance) {
   const std::uint64_t span = std::uint64_t{1} << likeness.span_log2;
   const std::uint64_t step = std::max<std::uint64_t>(span / likeness.times, 1);
-  const auto time = likeness.start + static_cast<std::int64_t>(chance.below(std::min(likeness.times, span)) * step % span);
+  const auto time =
+      likeness.start + static_cast<std::int64_t>(chance.below(std::min(likeness.times, span)) * step % span);
   const auto phase = static_cast<Phase>(chance.below(likeness.phases));
   const ComponentId target{likeness.first_target + static_cast<std::uint32_t>(chance.below(likeness.targets))};
   const ComponentId source{static_cast<std::uint32_t>(chance.below(3))};
@@ -35,8 +39,16 @@ Event any_event(const Likeness& likeness, std::uint64_t number, RandomStream& ch
 
 constexpr std::int64_t far = std::int64_t{1} << 50;
 constexpr Likeness likenesses[] = {
-    {0, 16, 65'536, 1, 1'000, 0},     {far, 16, 5, 1, 1'000, 0},      {far, 16, 1, 1, 40'000, 17},      {far, 16, 1, 1, 1, 9},      {far, 17, 131'072, 3, 50'000, 1u << 28},
-    {far, 26, 1'000'000, 1, 30, 0},   {far, 40, 1'000'000, 1, 30, 0}, {far, 40, 3, 3, 1'000'000, 0},    {0, 40, 1u << 30, 3, 2, 5}, {far, 20, 2, 3, 1u << 28, 1u << 28},
+    {0, 16, 65'536, 1, 1'000, 0},
+    {far, 16, 5, 1, 1'000, 0},
+    {far, 16, 1, 1, 40'000, 17},
+    {far, 16, 1, 1, 1, 9},
+    {far, 17, 131'072, 3, 50'000, 1u << 28},
+    {far, 26, 1'000'000, 1, 30, 0},
+    {far, 40, 1'000'000, 1, 30, 0},
+    {far, 40, 3, 3, 1'000'000, 0},
+    {0, 40, 1u << 30, 3, 2, 5},
+    {far, 20, 2, 3, 1u << 28, 1u << 28},
 };
 
 TEST(EventSort, OfFewIsTheSortedVector) {
@@ -51,7 +63,8 @@ TEST(EventSort, OfFewIsTheSortedVector) {
         std::vector<Event> sorted(count);
         sort_few(pointers, TrueTime::from_ps(likeness.start), likeness.span_log2, sorted.data());
         std::sort(events.rbegin(), events.rend());
-        ASSERT_TRUE(std::equal(events.begin(), events.end(), sorted.begin(), sorted.end(), is_same)) << count << " events within 2^" << likeness.span_log2 << " ps";
+        ASSERT_TRUE(std::equal(events.begin(), events.end(), sorted.begin(), sorted.end(), is_same))
+            << count << " events within 2^" << likeness.span_log2 << " ps";
       }
 }
 
@@ -65,7 +78,8 @@ TEST(EventSort, OfManyIsTheSortedVector) {
       std::vector<Event> sorted = events;
       sorter.sort(sorted);
       std::sort(events.rbegin(), events.rend());
-      ASSERT_TRUE(std::equal(events.begin(), events.end(), sorted.begin(), sorted.end(), is_same)) << count << " events within 2^" << likeness.span_log2 << " ps";
+      ASSERT_TRUE(std::equal(events.begin(), events.end(), sorted.begin(), sorted.end(), is_same))
+          << count << " events within 2^" << likeness.span_log2 << " ps";
     }
 }
 

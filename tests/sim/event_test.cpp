@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/event.hpp"
 
 #include <gtest/gtest.h>
@@ -23,14 +24,17 @@ struct Key {
 };
 
 Event event_of(const Key& key, EventKind kind = 0) {
-  return {TrueTime::from_ps(key.time), Event::order_of(key.phase, {key.node}, {key.source}), key.serial << 16 | kind, 0};
+  return {TrueTime::from_ps(key.time), Event::order_of(key.phase, {key.node}, {key.source}), key.serial << 16 | kind,
+          0};
 }
 
 TEST(EventOrder, EachKeyDecidesAndEarlierKeysWin) {
   // Each key is smaller than its successor although all later fields are larger.
   const Key ascending[] = {
-      {1, Phase::judgement, 9, 9, 9}, {2, Phase::control, 9, 9, 9}, {2, Phase::timer, 7, 9, 9},   {2, Phase::arrival, 8, 9, 9},  {2, Phase::arrival, 9, 1, 9},   {2, Phase::arrival, 9, 2, 1},
-      {2, Phase::arrival, 9, 2, 2},   {2, Phase::timer, 9, 0, 0},   {2, Phase::decision, 9, 0, 0}, {2, Phase::judgement, 0, 0, 0}, {3, Phase::control, 0, 0, 0},
+      {1, Phase::judgement, 9, 9, 9}, {2, Phase::control, 9, 9, 9}, {2, Phase::timer, 7, 9, 9},
+      {2, Phase::arrival, 8, 9, 9},   {2, Phase::arrival, 9, 1, 9}, {2, Phase::arrival, 9, 2, 1},
+      {2, Phase::arrival, 9, 2, 2},   {2, Phase::timer, 9, 0, 0},   {2, Phase::decision, 9, 0, 0},
+      {2, Phase::judgement, 0, 0, 0}, {3, Phase::control, 0, 0, 0},
   };
   for (std::size_t i = 0; i < std::size(ascending); ++i) {
     for (std::size_t j = 0; j < std::size(ascending); ++j)
@@ -44,8 +48,8 @@ TEST(EventOrder, IsThatOfTheTupleForRandomKeys) {
   constexpr std::uint32_t ids[] = {0, 1, 2, max_components - 2, max_components - 1};
   constexpr std::int64_t times[] = {0, 1, 1'000'000'007, INT64_MAX - 1};
   for (int i = 0; i < 400; ++i)
-    keys.push_back({times[chance.below(4)], static_cast<Phase>(chance.below(5)), ids[chance.below(5)], ids[chance.below(5)],
-                    chance.below(2) == 0 ? chance.below(4) : (1ULL << 48) - 1 - chance.below(4)});
+    keys.push_back({times[chance.below(4)], static_cast<Phase>(chance.below(5)), ids[chance.below(5)],
+                    ids[chance.below(5)], chance.below(2) == 0 ? chance.below(4) : (1ULL << 48) - 1 - chance.below(4)});
   for (const Key& a : keys)
     for (const Key& b : keys) ASSERT_EQ(event_of(a) < event_of(b), a.tuple() < b.tuple());
 }

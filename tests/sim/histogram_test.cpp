@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/histogram.hpp"
 
 #include <gtest/gtest.h>
@@ -37,15 +38,16 @@ void expect_exact_moments(const Histogram& histogram, const std::vector<std::int
   EXPECT_EQ(histogram.mean().ps(), static_cast<std::int64_t>((2 * sum + n) / (2 * n)));  // half up
   long double scatter = 0;
   const long double mean = static_cast<long double>(sum) / static_cast<long double>(n);
-  for (const std::int64_t ps : samples) scatter += (static_cast<long double>(ps) - mean) * (static_cast<long double>(ps) - mean);
+  for (const std::int64_t ps : samples)
+    scatter += (static_cast<long double>(ps) - mean) * (static_cast<long double>(ps) - mean);
   const long double deviation = std::sqrt(scatter / static_cast<long double>(n));
   // Rounded to the picosecond; a double holds 53 bits of it.
   EXPECT_NEAR(static_cast<double>(static_cast<long double>(histogram.standard_deviation().ps()) - deviation), 0.0,
               0.5 + 1e-9 + static_cast<double>(deviation) * 4e-16);
 }
 
-constexpr std::pair<std::uint64_t, std::uint64_t> percentiles[] = {{0, 100},  {1, 100},    {25, 100},      {50, 100},         {90, 100},
-                                                                   {99, 100}, {999, 1'000}, {9'999, 10'000}, {100, 100}};
+constexpr std::pair<std::uint64_t, std::uint64_t> percentiles[] = {
+    {0, 100}, {1, 100}, {25, 100}, {50, 100}, {90, 100}, {99, 100}, {999, 1'000}, {9'999, 10'000}, {100, 100}};
 
 /// Never below the true percentile and at most 1/128 above it.
 bool percentiles_hold(const Histogram& histogram, const std::vector<std::int64_t>& samples) {
@@ -65,16 +67,16 @@ TEST(Histogram, SmallNumbersAreExact) {
   EXPECT_EQ(h.standard_deviation(), 2_ps);
   EXPECT_EQ(h.minimum(), 2_ps);
   EXPECT_EQ(h.maximum(), 9_ps);
-  EXPECT_EQ(h.percentile(50, 100), 4_ps);   // the fourth of eight
-  EXPECT_EQ(h.percentile(51, 100), 5_ps);   // ceil(4.08) = the fifth
+  EXPECT_EQ(h.percentile(50, 100), 4_ps);  // the fourth of eight
+  EXPECT_EQ(h.percentile(51, 100), 5_ps);  // ceil(4.08) = the fifth
   EXPECT_EQ(h.percentile(100, 100), 9_ps);
   EXPECT_EQ(h.percentile(0, 100), 2_ps);
 }
 
 TEST(Histogram, MeanIsRoundedToTheNearest) {
-  EXPECT_EQ(histogram_of({1, 2}).mean(), 2_ps);      // 1.5, half up
-  EXPECT_EQ(histogram_of({1, 1, 2}).mean(), 1_ps);   // 1.33
-  EXPECT_EQ(histogram_of({1, 2, 2}).mean(), 2_ps);   // 1.67
+  EXPECT_EQ(histogram_of({1, 2}).mean(), 2_ps);     // 1.5, half up
+  EXPECT_EQ(histogram_of({1, 1, 2}).mean(), 1_ps);  // 1.33
+  EXPECT_EQ(histogram_of({1, 2, 2}).mean(), 2_ps);  // 1.67
 }
 
 TEST(Histogram, AgreesWithBruteForce) {
@@ -88,8 +90,8 @@ TEST(Histogram, AgreesWithBruteForce) {
   }
 }
 
-// A latency of an hour that jitters by picoseconds: the squares do not eat the deviation (numbers around 3.6e15, whose squares
-// need 104 bits). The samples are c - 1, c, c + 1: deviation sqrt(2/3) = 0.82, rounded to 1.
+// A latency of an hour that jitters by picoseconds: the squares do not eat the deviation (numbers around 3.6e15, whose
+// squares need 104 bits). The samples are c - 1, c, c + 1: deviation sqrt(2/3) = 0.82, rounded to 1.
 TEST(Histogram, DeviationSurvivesALargeMean) {
   const std::int64_t c = 3'600'000'000'000'000;
   EXPECT_EQ(histogram_of({c - 1, c, c + 1}).standard_deviation(), 1_ps);
@@ -99,7 +101,8 @@ TEST(Histogram, DeviationSurvivesALargeMean) {
 
 TEST(Histogram, AnySamples) {
   EXPECT_TRUE(rc::check("percentiles and moments of any samples", [] {
-    const auto raw = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, INT64_MAX)));
+    const auto raw =
+        *rc::gen::nonEmpty(rc::gen::container<std::vector<std::int64_t>>(rc::gen::inRange<std::int64_t>(0, INT64_MAX)));
     std::vector<std::int64_t> samples;
     for (std::size_t i = 0; i < raw.size(); ++i) samples.push_back(raw[i] >> (raw[i] % 61));
     const Histogram histogram = histogram_of(samples);
@@ -109,8 +112,8 @@ TEST(Histogram, AnySamples) {
   }));
 }
 
-// One sample in every bucket there is, found by walking from edge to edge: each bucket begins right after the one before, and
-// spans at most 1/128 of its lower edge.
+// One sample in every bucket there is, found by walking from edge to edge: each bucket begins right after the one
+// before, and spans at most 1/128 of its lower edge.
 TEST(Histogram, BucketsAreContiguousFromZeroToTheEndOfTime) {
   std::uint64_t next = 0;
   int buckets = 0;

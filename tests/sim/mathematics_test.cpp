@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/mathematics.hpp"
 
 #include <gtest/gtest.h>
@@ -93,8 +94,8 @@ TEST(NormalQuantile, IsTheInverseOfPhi) {
   EXPECT_LT(worst, 1e-13);
 }
 
-// In the tail absolute agreement says nothing. Phi'(q) / Phi(q) is about |q|, so an error e of q shows as |q| e; with |q| up to 37
-// and e = 4e-15 |q| that is 5e-12.
+// In the tail absolute agreement says nothing. Phi'(q) / Phi(q) is about |q|, so an error e of q shows as |q| e; with
+// |q| up to 37 and e = 4e-15 |q| that is 5e-12.
 TEST(NormalQuantile, IsTheInverseOfPhiInTheFarTailToo) {
   double worst = 0;
   for (int exponent = -1000; exponent <= -2; ++exponent) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The bounded reader and writer, in both byte orders, whether a message tells its order or not.
 #include "sim/octets.hpp"
 
@@ -44,7 +45,7 @@ TEST(OctetWriter, WritesNothingThatDoesNotFitUntilThatIsTakenBack) {
   out.put(std::uint8_t{3});  // would fit
   EXPECT_TRUE(out.overflowed());
   EXPECT_TRUE(out.finished().empty());
-  out.take_back_to(begin);
+  out.rewind_to(begin);
   out.put(std::uint8_t{4});
   EXPECT_EQ(numbers(out.finished()), (std::vector<int>{0, 0, 0, 1, 4}));
   out.patch(0, std::uint16_t{0x0506});
@@ -52,7 +53,8 @@ TEST(OctetWriter, WritesNothingThatDoesNotFitUntilThatIsTakenBack) {
 }
 
 TEST(OctetReader, ReadsWhatIsThereAndFailsForGoodBehindIt) {
-  const std::array<std::byte, 7> octets = {std::byte{1}, std::byte{2}, std::byte{3}, std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFE}};
+  const std::array<std::byte, 7> octets = {std::byte{1},    std::byte{2},    std::byte{3},   std::byte{0xFF},
+                                           std::byte{0xFF}, std::byte{0xFF}, std::byte{0xFE}};
   OctetReader<BigEndian> in(octets);
   EXPECT_EQ(in.get<std::uint8_t>(), 1);
   EXPECT_EQ(in.get<std::uint16_t>(), 0x0203);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/random.hpp"
 
 #include <gtest/gtest.h>
@@ -12,8 +13,8 @@
 namespace takt::sim {
 namespace {
 
-// Computed independently (Python, from the published xoshiro256++ and SplitMix64 and the absorption described in random.cpp).
-// They can never change: results of users, and paired comparisons between versions, hang on them.
+// Computed independently (Python, from the published xoshiro256++ and SplitMix64 and the absorption described in
+// random.cpp). They can never change: results of users, and paired comparisons between versions, hang on them.
 TEST(RandomStream, PinnedNumbers) {
   RandomStream stream(1, "sw1/port0", "loss");
   EXPECT_EQ(stream.next(), 0xCCB938F9D5671E01ULL);
@@ -40,7 +41,8 @@ TEST(RandomStream, EveryPartOfTheNameCounts) {
   std::vector<std::uint64_t> firsts;
   for (const std::uint64_t seed : {1ULL, 2ULL})
     for (const char* path : {"a", "b", "ab", "", "a/b"})
-      for (const char* purpose : {"a", "b", "ab", "", "b/a"}) firsts.push_back(RandomStream(seed, path, purpose).next());
+      for (const char* purpose : {"a", "b", "ab", "", "b/a"})
+        firsts.push_back(RandomStream(seed, path, purpose).next());
   std::sort(firsts.begin(), firsts.end());
   EXPECT_EQ(std::adjacent_find(firsts.begin(), firsts.end()), firsts.end()) << "two names share a stream";
 }
@@ -56,8 +58,8 @@ TEST(RandomStream, IsAFunctionOfItsNameAlone) {
 // Streams of similar names are uncorrelated: the correlation of n pairs has the standard deviation 1/sqrt(n) = 0.0032.
 TEST(RandomStream, SimilarNamesAreIndependent) {
   constexpr int n = 100'000;
-  const std::array<RandomStream, 4> streams = {RandomStream(1, "sw1", "x"), RandomStream(2, "sw1", "x"), RandomStream(1, "sw2", "x"),
-                                               RandomStream(1, "sw1", "y")};
+  const std::array<RandomStream, 4> streams = {RandomStream(1, "sw1", "x"), RandomStream(2, "sw1", "x"),
+                                               RandomStream(1, "sw2", "x"), RandomStream(1, "sw1", "y")};
   for (std::size_t i = 0; i < streams.size(); ++i) {
     for (std::size_t j = i + 1; j < streams.size(); ++j) {
       RandomStream a = streams[i];
@@ -107,8 +109,9 @@ TEST(RandomStream, BelowIsUniform) {
   EXPECT_LT(chi_square, 22.46);
 }
 
-// With a bound of 3 * 2^62 a draw by multiplication alone would hit the multiples of 3 twice as often as the rest, and one by
-// remainder the lowest third twice as often. Unbiased, both shares are 1/3 (standard error 0.0015 at 10^5 draws).
+// With a bound of 3 * 2^62 a draw by multiplication alone would hit the multiples of 3 twice as often as the rest, and
+// one by remainder the lowest third twice as often. Unbiased, both shares are 1/3 (standard error 0.0015 at 10^5
+// draws).
 TEST(RandomStream, BelowHasNoBiasForHugeBounds) {
   RandomStream stream(4, "huge", "test");
   constexpr std::uint64_t bound = 3ULL << 62;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A component that writes down what reaches it.
 #pragma once
 

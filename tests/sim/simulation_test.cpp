@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/simulation.hpp"
 
 #include <gtest/gtest.h>
@@ -84,7 +85,9 @@ TEST_F(SimulationTest, SteppingChangesNothing) {
     Recorder c(own, lines);
     EventSource source(ComponentId{50});
     c.on_event = [&c](Simulation& s, const Event& e) {
-      if (e.kind() < 50) s.schedule(c.source, e.time + Duration::from_ps(e.kind() % 3), Phase::timer, c.id(), static_cast<EventKind>(e.kind() + 1), 0);
+      if (e.kind() < 50)
+        s.schedule(c.source, e.time + Duration::from_ps(e.kind() % 3), Phase::timer, c.id(),
+                   static_cast<EventKind>(e.kind() + 1), 0);
       if (e.kind() % 2 == 0) s.decide_later(c.id(), Decision::egress);
     };
     own.schedule(source, at_ps(0), Phase::timer, c.id(), 0, 0);
@@ -111,8 +114,9 @@ TEST_F(SimulationTest, TheEventsOfANodeAreOneRun) {
   EXPECT_EQ(log, (Log{event(10, part, 3), event(10, a, 1), event(10, part, 4), event(10, b, 2)}));
 }
 
-// `a` is asked for at 10 in the control phase; the events of its node at 10 that exist already, in all phases, and those that are scheduled for 10
-// while the instant goes on, are all handled before it decides. Then comes the other node.
+// `a` is asked for at 10 in the control phase; the events of its node at 10 that exist already, in all phases, and
+// those that are scheduled for 10 while the instant goes on, are all handled before it decides. Then comes the other
+// node.
 TEST_F(SimulationTest, DecidesAfterAllEventsOfTheNodeAtTheInstant) {
   a.on_event = [this](Simulation& s, const Event& e) {
     if (e.kind() == 1) s.decide_later(a.id(), Decision::egress);
@@ -123,12 +127,14 @@ TEST_F(SimulationTest, DecidesAfterAllEventsOfTheNodeAtTheInstant) {
   schedule(10, Phase::timer, a, 3);
   schedule(11, Phase::control, b, 5);
   EXPECT_TRUE(simulation.run(at_ps(20)));
-  EXPECT_EQ(log, (Log{event(10, a, 1), event(10, a, 3), event(10, a, 4), decided(10, a), event(10, b, 2), event(11, b, 5)}));
+  EXPECT_EQ(log,
+            (Log{event(10, a, 1), event(10, a, 3), event(10, a, 4), decided(10, a), event(10, b, 2), event(11, b, 5)}));
   EXPECT_EQ(simulation.event_count(), 5u);
 }
 
-// The last event of the node: not where another one follows, whatever its phase, nor where a component is to decide, nor after an event has been scheduled for now. Events of other nodes
-// do not count. With nothing to come it is not known.
+// The last event of the node: not where another one follows, whatever its phase, nor where a component is to decide,
+// nor after an event has been scheduled for now. Events of other nodes do not count. With nothing to come it is not
+// known.
 TEST_F(SimulationTest, KnowsTheLastEventOfANode) {
   std::vector<bool> seen;
   a.on_event = [&](Simulation& s, const Event& e) {
@@ -167,7 +173,8 @@ TEST_F(SimulationTest, ADecisionMayContinueTheInstant) {
   EXPECT_EQ(log, (Log{event(10, a, 1), decided(10, a), event(10, a, 2), decided(10, a)}));
 }
 
-// Whatever asked first, ingress, processor, reception and egress decide in this order; what asks meanwhile comes behind those that have decided.
+// Whatever asked first, ingress, processor, reception and egress decide in this order; what asks meanwhile comes behind
+// those that have decided.
 TEST_F(SimulationTest, DecisionsOfANodeHaveAnOrder) {
   Recorder parts[4] = {{simulation, log}, {simulation, log}, {simulation, log}, {simulation, log}};
   for (const Recorder& part : parts) simulation.group(part.id(), a.id());
@@ -180,7 +187,8 @@ TEST_F(SimulationTest, DecisionsOfANodeHaveAnOrder) {
   };
   schedule(10, Phase::timer, a, 1);
   EXPECT_TRUE(simulation.run(at_ps(20)));
-  EXPECT_EQ(log, (Log{event(10, a, 1), decided(10, parts[0]), decided(10, parts[1]), decided(10, parts[2]), decided(10, parts[3]), decided(10, parts[0]), decided(10, parts[1])}));
+  EXPECT_EQ(log, (Log{event(10, a, 1), decided(10, parts[0]), decided(10, parts[1]), decided(10, parts[2]),
+                      decided(10, parts[3]), decided(10, parts[0]), decided(10, parts[1])}));
 }
 
 TEST_F(SimulationTest, DecidesWhatWasAskedForBeforeTheRun) {
@@ -229,8 +237,8 @@ TEST_F(SimulationTest, TheOrderDoesNotDependOnWhenEventsWereScheduled) {
   EXPECT_EQ(lines[0], lines[1]);
 }
 
-// BUG (reported, not fixed): run(never) with nothing left to do pops from the empty queue (first_time() is then also never, and
-// `next > until` does not hold): a crash or an endless loop.
+// BUG (reported, not fixed): run(never) with nothing left to do pops from the empty queue (first_time() is then also
+// never, and `next > until` does not hold): a crash or an endless loop.
 TEST_F(SimulationTest, RunUntilNeverEnds) {
   schedule(10, Phase::arrival, a, 1);
   EXPECT_TRUE(simulation.run(TrueTime::never()));

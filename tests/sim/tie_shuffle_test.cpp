@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tie shuffle permutes the nodes of an instant and the sources of a phase, and nothing else.
 #include <gtest/gtest.h>
 
@@ -56,7 +57,7 @@ TEST(TieShuffle, DeliversEveryEventToItsTargetAtItsTimeAndPhase) {
   for (const std::uint64_t key : {1ULL, 2ULL, 0x123456789ABCDEFULL, (1ULL << 60) - 1}) {
     std::vector<Entry> shuffled = run(key);
     std::int64_t last_time = -1;
-    std::set<std::uint32_t> over;   // nodes that have had their run at this instant
+    std::set<std::uint32_t> over;  // nodes that have had their run at this instant
     const Entry* before = nullptr;
     for (const Entry& entry : shuffled) {
       EXPECT_EQ(entry.who, entry.kind & 0xFFu) << "an event for another component";
@@ -68,12 +69,14 @@ TEST(TieShuffle, DeliversEveryEventToItsTargetAtItsTimeAndPhase) {
       last_time = entry.time;
       const bool is_control = entry.kind >> 8 == static_cast<unsigned>(Phase::control);
       if (is_control) {
-        EXPECT_TRUE(before == nullptr || before->kind >> 8 == static_cast<unsigned>(Phase::control)) << "control still comes before all nodes";
+        EXPECT_TRUE(before == nullptr || before->kind >> 8 == static_cast<unsigned>(Phase::control))
+            << "control still comes before all nodes";
       }
       if (!is_control && before != nullptr && before->who == entry.who) {
         EXPECT_LE(before->kind >> 8, entry.kind >> 8) << "phases of a node keep their order";
       }
-      if (!is_control && (before == nullptr || before->who != entry.who || before->kind >> 8 == static_cast<unsigned>(Phase::control))) {
+      if (!is_control && (before == nullptr || before->who != entry.who ||
+                          before->kind >> 8 == static_cast<unsigned>(Phase::control))) {
         EXPECT_TRUE(over.insert(entry.who).second) << "the events of a node are one run";
       }
       before = &entry;
@@ -118,8 +121,8 @@ TEST(TieShuffle, BothOrdersOfTwoEventsOccur) {
 }
 
 TEST(TieShuffle, IsABijectionForExtremeIds) {
-  // Only ids that have a component may be targets, but sources may be any: no two (target, source) pairs fall together, so
-  // every event arrives where it should.
+  // Only ids that have a component may be targets, but sources may be any: no two (target, source) pairs fall together,
+  // so every event arrives where it should.
   for (const std::uint64_t key : {3ULL, 0xFFFF'FFFFULL << 28}) {
     Simulation simulation(1);
     simulation.set_tie_shuffle(key);

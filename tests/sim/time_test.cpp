@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/time.hpp"
 
 #include <gtest/gtest.h>
@@ -8,15 +9,25 @@ namespace takt::sim {
 namespace {
 
 template <class A, class B>
-concept Comparable = requires(A a, B b) { a < b; };
+concept Comparable = requires(A a, B b) {
+  a < b;
+};
 template <class A, class B>
-concept Equal = requires(A a, B b) { a == b; };
+concept Equal = requires(A a, B b) {
+  a == b;
+};
 template <class A, class B>
-concept Subtractable = requires(A a, B b) { a - b; };
+concept Subtractable = requires(A a, B b) {
+  a - b;
+};
 template <class A, class B>
-concept Addable = requires(A a, B b) { a + b; };
+concept Addable = requires(A a, B b) {
+  a + b;
+};
 template <class A, class B>
-concept Multipliable = requires(A a, B b) { a * b; };
+concept Multipliable = requires(A a, B b) {
+  a* b;
+};
 
 // Instants of different scales neither compare nor subtract nor convert: a compile error, not a convention.
 template <class A, class B>
@@ -28,8 +39,10 @@ static_assert(!scales_mix<LocalTime, PtpTime> && !scales_mix<PtpTime, LocalTime>
 
 // An instant is no duration and no number; two instants do not add; a number has no unit.
 static_assert(!Addable<TrueTime, TrueTime> && Subtractable<TrueTime, TrueTime> && Addable<TrueTime, Duration>);
-static_assert(!Comparable<TrueTime, Duration> && !Comparable<Duration, std::int64_t> && !Addable<Duration, std::int64_t>);
-static_assert(!Multipliable<Duration, Duration> && Multipliable<Duration, std::int64_t> && Multipliable<std::int64_t, Duration>);
+static_assert(!Comparable<TrueTime, Duration> && !Comparable<Duration, std::int64_t> &&
+              !Addable<Duration, std::int64_t>);
+static_assert(!Multipliable<Duration, Duration> && Multipliable<Duration, std::int64_t> &&
+              Multipliable<std::int64_t, Duration>);
 static_assert(!std::is_constructible_v<Duration, std::int64_t> && !std::is_convertible_v<Duration, std::int64_t>);
 static_assert(!std::is_constructible_v<TrueTime, std::int64_t> && !std::is_constructible_v<TrueTime, Duration>);
 static_assert(std::is_same_v<decltype(TrueTime() - TrueTime()), Duration>);
@@ -56,9 +69,9 @@ TEST(Time, DurationArithmetic) {
   EXPECT_EQ(d.ps(), -1'998'001);  // -2 000 000 + 2 000 - 1
   EXPECT_EQ(7_ns * 3, 21_ns);
   EXPECT_EQ(3 * 7_ns, 21_ns);
-  EXPECT_EQ(10_us / 3_us, 3);     // how often 3 us goes into 10 us
+  EXPECT_EQ(10_us / 3_us, 3);  // how often 3 us goes into 10 us
   EXPECT_EQ(10_us % 3_us, 1_us);
-  EXPECT_EQ(10_ps / 4, 2_ps);     // towards zero
+  EXPECT_EQ(10_ps / 4, 2_ps);  // towards zero
   EXPECT_EQ((-(10_ps) / 4).ps(), -2);
   EXPECT_EQ((-(10_ps) % 4_ps).ps(), -2);
   EXPECT_EQ(Duration(), 0_ps);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/timer.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ constexpr EventKind command = 8;
 /// One timer; it notes when it fires. Commands, run at given times, use the timer.
 class Owner final : public Component {
  public:
-  explicit Owner(Simulation& simulation) : source(simulation.add(*this)), timer(source.id(), Phase::timer, time_out), simulation_(&simulation) {}
+  explicit Owner(Simulation& simulation)
+      : source(simulation.add(*this)), timer(source.id(), Phase::timer, time_out), simulation_(&simulation) {}
 
   void at(std::int64_t time, std::function<void()> what) {
     commands_.push_back(std::move(what));
@@ -70,8 +72,9 @@ TEST_F(TimerTest, FiresOnce) {
   EXPECT_FALSE(owner.timer.armed());
 }
 
-// A watchdog that is fed every 10 ps, 50 times: armed at 0, 10, .. 500 for 100 later. Its event comes due at 100 (deadline is
-// then 200), at 200 (300), 300 (400), 400 (500), 500 (600; the feeding at 500 is in an earlier phase), 600: six events, not 51.
+// A watchdog that is fed every 10 ps, 50 times: armed at 0, 10, .. 500 for 100 later. Its event comes due at 100
+// (deadline is then 200), at 200 (300), 300 (400), 400 (500), 500 (600; the feeding at 500 is in an earlier phase),
+// 600: six events, not 51.
 TEST_F(TimerTest, PostponingCostsNoEvent) {
   for (std::int64_t t = 0; t <= 500; t += 10) owner.at(t, [this, t] { owner.arm(t + 100); });
   run();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sim/units.hpp"
 
 #include <gtest/gtest.h>
@@ -8,8 +9,12 @@ namespace takt::sim {
 namespace {
 
 template <class A, class B>
-concept Mix = requires(A a, B b) { a + b; } || requires(A a, B b) { a - b; } || requires(A a, B b) { a < b; } ||
-              requires(A a, B b) { a == b; };
+concept Mix = requires(A a, B b) {
+  a + b;
+}
+|| requires(A a, B b) { a - b; }
+|| requires(A a, B b) { a < b; }
+|| requires(A a, B b) { a == b; };
 static_assert(Mix<Octets, Octets>);
 static_assert(!Mix<Octets, DataRate> && !Mix<Octets, Length> && !Mix<Octets, Duration> && !Mix<Octets, std::uint32_t>);
 static_assert(!Mix<DataRate, Length> && !Mix<DataRate, FrequencyOffset> && !Mix<DataRate, std::uint64_t>);
@@ -29,7 +34,7 @@ TEST(Units, OctetTimeOfEthernetRates) {
     Duration octet;
   };
   // 8 bit / rate: 8e12 ps / 10e6 = 800 000 ps, and so on.
-  constexpr Row rows[] = {{10_Mbps, 800_ns}, {100_Mbps, 80_ns}, {1_Gbps, 8_ns},    {DataRate{2'500'000'000}, 3'200_ps},
+  constexpr Row rows[] = {{10_Mbps, 800_ns},  {100_Mbps, 80_ns}, {1_Gbps, 8_ns},    {DataRate{2'500'000'000}, 3'200_ps},
                           {5_Gbps, 1'600_ps}, {10_Gbps, 800_ps}, {25_Gbps, 320_ps}, {40_Gbps, 200_ps},
                           {100_Gbps, 80_ps},  {400_Gbps, 20_ps}};
   for (const Row& row : rows) {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """dumpcap on an interface, from before the first frame until after the last one."""
 import os
 import re

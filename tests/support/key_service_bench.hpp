@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A server that is a key service, and clients that pull from it, without a network.
 #pragma once
 
@@ -44,7 +45,8 @@ inline ServerSettings settings_with_keys() {
   ServerSettings settings = settings_with_users();
   settings.users.push_back({"emil", settings.users[0].password, Role::engineer});
   settings.users.push_back({"left", settings.users[0].password, Role::key_access});
-  for (const SecurityPolicy each : {SecurityPolicy::Basic256Sha256, SecurityPolicy::Aes128Sha256RsaOaep, SecurityPolicy::Aes256Sha256RsaPss})
+  for (const SecurityPolicy each :
+       {SecurityPolicy::Basic256Sha256, SecurityPolicy::Aes128Sha256RsaOaep, SecurityPolicy::Aes256Sha256RsaPss})
     settings.endpoints.push_back({each, MessageSecurityMode::SignAndEncrypt});
   settings.limits.private_key_operations = 1 << 20;
   return settings;
@@ -62,7 +64,9 @@ struct KeyBench {
     settings.password = security::Secret(std::as_bytes(std::span("secret", 6)));
   }
 
-  std::unique_ptr<CallClient> client(CallMethodRequest what, std::int64_t now_ms = 0) { return std::make_unique<CallClient>(settings, other_identity(), trusted, random, std::move(what), at(now_ms)); }
+  std::unique_ptr<CallClient> client(CallMethodRequest what, std::int64_t now_ms = 0) {
+    return std::make_unique<CallClient>(settings, other_identity(), trusted, random, std::move(what), at(now_ms));
+  }
   /// To the end, or until neither side has anything to say.
   std::unique_ptr<CallClient> call(CallMethodRequest what, std::int64_t now_ms = 0) {
     auto made = client(std::move(what), now_ms);
@@ -87,7 +91,9 @@ struct KeyBench {
     server.disconnected(id);
     return made;
   }
-  std::unique_ptr<CallClient> pull(const SecurityKeysRequest& request, std::int64_t now_ms = 0) { return call(call_of(request), now_ms); }
+  std::unique_ptr<CallClient> pull(const SecurityKeysRequest& request, std::int64_t now_ms = 0) {
+    return call(call_of(request), now_ms);
+  }
 
   CountedRandom random;
   RecordingHost host;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A server without a network, and a client of it that says what it is told: for tests and for fuzzing.
 #pragma once
 
@@ -9,7 +10,8 @@ namespace takt::opcua::test {
 class CountedRandom final : public security::RandomOctets {
  public:
   void fill(std::span<std::byte> octets) override {
-    for (std::byte& each : octets) each = static_cast<std::byte>((state_ = state_ * 6364136223846793005U + 1442695040888963407U) >> 56);
+    for (std::byte& each : octets)
+      each = static_cast<std::byte>((state_ = state_ * 6364136223846793005U + 1442695040888963407U) >> 56);
   }
 
  private:
@@ -43,7 +45,9 @@ class SilentLog final : public ServerLog {
   std::string last;
 };
 
-inline Now at(std::int64_t ms) { return {sim::LocalTime() + milliseconds(ms), DateTime{(epoch_1970_s + 1'800'000'000) * 10'000'000 + ms * 10'000}}; }
+inline Now at(std::int64_t ms) {
+  return {sim::LocalTime() + milliseconds(ms), DateTime{(epoch_1970_s + 1'800'000'000) * 10'000'000 + ms * 10'000}};
+}
 
 inline const Identity& test_identity() {
   static const Identity made = [] {
@@ -91,7 +95,8 @@ inline ProgramDescription test_program() {
 }
 
 struct Bench {
-  explicit Bench(ServerSettings settings = test_settings()) : server(std::move(settings), test_identity(), random, host, log, {test_program()}, at(0)) {}
+  explicit Bench(ServerSettings settings = test_settings())
+      : server(std::move(settings), test_identity(), random, host, log, {test_program()}, at(0)) {}
 
   CountedRandom random;
   RecordingHost host;
@@ -103,7 +108,8 @@ struct Bench {
 template <class BenchOf>
 class PlainClientOf {
  public:
-  explicit PlainClientOf(BenchOf& bench, std::int64_t now_ms = 0) : bench_(bench), id_(bench.server.connected("192.0.2.1:1000", at(now_ms))) {}
+  explicit PlainClientOf(BenchOf& bench, std::int64_t now_ms = 0)
+      : bench_(bench), id_(bench.server.connected("192.0.2.1:1000", at(now_ms))) {}
 
   ConnectionId id() const { return id_; }
   std::vector<std::byte> octets() {
@@ -116,7 +122,8 @@ class PlainClientOf {
 
   /// `most_octets` of a response that it takes; 0: any.
   void open(std::int64_t now_ms = 0, std::uint32_t lifetime_ms = 3'600'000, std::uint32_t most_octets = 0) {
-    send(framed(MessageType::Hello, Hello{0, 65'536, 65'536, most_octets, 0, Text("opc.tcp://127.0.0.1:4840")}), now_ms);
+    send(framed(MessageType::Hello, Hello{0, 65'536, 65'536, most_octets, 0, Text("opc.tcp://127.0.0.1:4840")}),
+         now_ms);
     octets();
     OpenSecureChannelRequest request;
     request.security_mode = MessageSecurityMode::None;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a test may ask about a process that it has started, instead of sleeping for a while."""
 import os
 import pathlib

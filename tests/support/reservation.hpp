@@ -1,6 +1,9 @@
-// Domains and ports that belong to one test program, so that tests at the same time do not meet. reservation.py gives the same to tests in Python.
+// SPDX-License-Identifier: Apache-2.0
+// Domains and ports that belong to one test program, so that tests at the same time do not meet. reservation.py gives
+// the same to tests in Python.
 //
-// What is reserved is held by a UDP port on the loopback interface that nobody else uses. All are below those that the system gives to others (32768).
+// What is reserved is held by a UDP port on the loopback interface that nobody else uses. All are below those that the
+// system gives to others (32768).
 #pragma once
 
 #include <arpa/inet.h>
@@ -18,7 +21,9 @@ class Reservation {
   /// A DDS domain from 1 to 80. Participants would have to be a hundred to use its holder's port.
   static Reservation domain() { return {domains, 7400 + 250 + 10 + 2 * 100, 250, 1, 1}; }
   /// `ports_in_block` UDP ports from number() on.
-  static Reservation ports() { return {blocks, 28'000 + ports_in_block, ports_in_block + 1, 28'000, ports_in_block + 1}; }
+  static Reservation ports() {
+    return {blocks, 28'000 + ports_in_block, ports_in_block + 1, 28'000, ports_in_block + 1};
+  }
   static constexpr int ports_in_block = 19;
 
   Reservation(const Reservation&) = delete;

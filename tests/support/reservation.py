@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Domains and ports that belong to one test program, so that tests at the same time do not meet: reservation.hpp for tests in Python."""
 import os
 import socket

@@ -1,4 +1,6 @@
-// The nodes of a group on a network without sockets and clocks, and a stranger in it: what it hears it may say again with other contents.
+// SPDX-License-Identifier: Apache-2.0
+// The nodes of a group on a network without sockets and clocks, and a stranger in it: what it hears it may say again
+// with other contents.
 #pragma once
 
 #include <unistd.h>
@@ -16,10 +18,10 @@
 #include <vector>
 
 #include "node/config.hpp"
-#include "security/secure_channel.hpp"
 #include "node/node_status.hpp"
 #include "node/statistics.hpp"
 #include "node/transition_log.hpp"
+#include "security/secure_channel.hpp"
 #include "uadp/octets.hpp"
 #include "wire/nesting.hpp"
 #include "wire/program_node.hpp"
@@ -28,35 +30,49 @@ namespace takt::test {
 
 /// What the nodes of a group are configured with.
 struct WordBenchGroup {
-  std::string programs;                                     ///< as in a node's file, one or several
+  std::string programs;                                    ///< as in a node's file, one or several
   std::vector<std::pair<std::string, std::string>> nodes;  ///< names, and more members of their files
-  std::string security = {};                               ///< members of their "security", whose keys change every 40 ms
+  std::string security = {};  ///< members of their "security", whose keys change every 40 ms
 };
 
 inline const WordBenchGroup& word_bench_group(const std::string& kind) {
-  static const std::string data = R"(, "process_data": [{"name": "targets", "from": "plc", "fields": {"x": "Double"}}, {"name": "actual", "from": "left", "fields": {"y": "Int16"}}])";
-  static const std::string one = R"({"name": "cell", "master": "plc", "slaves": ["left", "right"], "cycle": "1ms", "initialisation": "2ms")" + data;
+  static const std::string data =
+      R"(, "process_data": [{"name": "targets", "from": "plc", "fields": {"x": "Double"}}, {"name": "actual", "from": "left", "fields": {"y": "Int16"}}])";
+  static const std::string one =
+      R"({"name": "cell", "master": "plc", "slaves": ["left", "right"], "cycle": "1ms", "initialisation": "2ms")" +
+      data;
   static const std::vector<std::pair<std::string, std::string>> three = {{"plc", ""}, {"left", ""}, {"right", ""}};
   static const std::map<std::string, WordBenchGroup> groups = {
       {"robust", {one + "}", three}},
       {"paper", {one + R"(, "variant": "paper"})", three}},
       {"all-to-all", {one + R"(, "subscription": "all-to-all", "publish": "on-change"})", three}},
-      {"two", {R"({"name": "cell", "master": "plc", "slaves": ["left"], "cycle": "1ms"})", {{"plc", ""}, {"left", ""}}}},
+      {"two",
+       {R"({"name": "cell", "master": "plc", "slaves": ["left"], "cycle": "1ms"})", {{"plc", ""}, {"left", ""}}}},
       {"nested",
        {one + R"(}, {"name": "axes", "within": "cell", "master": "right", "slaves": ["x", "y"], "cycle": "1ms"})",
         {{"plc", ""}, {"left", ""}, {"right", ""}, {"x", ""}, {"y", ""}}}},
       {"roles",
        {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
-        {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}},
+        {{"plc", ""},
+         {"a", R"(, "offers": ["welding"])"},
+         {"b", R"(, "offers": ["welding"])"},
+         {"c", R"(, "offers": ["gripping"])"}}}},
       {"secured", {one + "}", three, R"("mode": "sign-and-encrypt")"}},
       {"signed", {one + "}", three, R"("mode": "sign", "policy": "aes256-ctr")"}},
       {"roles-restart",
        {R"({"name": "cell", "master": "plc", "cycle": "1ms", "announce_every": "5ms", "on_replacement": "restart", "candidates": ["a", "b", "c"], "roles": [{"name": "left", "skill": "welding"}, {"name": "hand", "skill": "gripping"}]})",
-        {{"plc", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}, {"c", R"(, "offers": ["gripping"])"}}}},
+        {{"plc", ""},
+         {"a", R"(, "offers": ["welding"])"},
+         {"b", R"(, "offers": ["welding"])"},
+         {"c", R"(, "offers": ["gripping"])"}}}},
       {"nested-roles",
        {R"({"name": "line", "master": "plc", "slaves": ["left", "right"], "cycle": "1ms"},
            {"name": "cell", "within": "line", "master": "right", "cycle": "1ms", "announce_every": "5ms", "candidates": ["a", "b"], "roles": [{"name": "tool", "skill": "welding"}]})",
-        {{"plc", ""}, {"left", ""}, {"right", ""}, {"a", R"(, "offers": ["welding"])"}, {"b", R"(, "offers": ["welding"])"}}}}};
+        {{"plc", ""},
+         {"left", ""},
+         {"right", ""},
+         {"a", R"(, "offers": ["welding"])"},
+         {"b", R"(, "offers": ["welding"])"}}}}};
   return groups.at(kind);
 }
 
@@ -99,9 +115,13 @@ class WordBench {
     nodes_[node]->seats[seat]->carry_out(outputs);
     return outputs.status;
   }
-  void finished(std::size_t node, std::size_t seat = 0) { nodes_[node]->seats[seat]->carry_out(member(node, seat).finished(now_)); }
+  void finished(std::size_t node, std::size_t seat = 0) {
+    nodes_[node]->seats[seat]->carry_out(member(node, seat).finished(now_));
+  }
   void change(std::size_t node, node::Membership what) {
-    if (member(node).candidate() != nullptr) nodes_[node]->seats[0]->carry_out(what == node::Membership::join ? member(node).join(now_) : member(node).leave(now_));
+    if (member(node).candidate() != nullptr)
+      nodes_[node]->seats[0]->carry_out(what == node::Membership::join ? member(node).join(now_)
+                                                                       : member(node).leave(now_));
   }
 
   void run(sim::Duration duration) {
@@ -122,12 +142,15 @@ class WordBench {
     return all;
   }
   /// The last message of a state, with this sequence number and these fields. Octets as text: "0b00".
-  std::vector<std::byte> state_of(std::size_t participant, std::uint16_t ahead, const std::string& fields, std::size_t program = 0) const {
+  std::vector<std::byte> state_of(std::size_t participant, std::uint16_t ahead, const std::string& fields,
+                                  std::size_t program = 0) const {
     const auto& format = *nodes_[0]->loaded.programs[program].endpoint.format;
-    const auto found = streams_.find({static_cast<std::uint16_t>(format.shape().first_publisher_id + participant), wire::state_writer_group});
+    const auto found = streams_.find(
+        {static_cast<std::uint16_t>(format.shape().first_publisher_id + participant), wire::state_writer_group});
     if (found == streams_.end()) throw std::runtime_error("nothing was said yet");
     std::vector<std::byte> octets = forged(found->second, ahead);
-    for (std::size_t i = 0; 2 * i < fields.size(); ++i) octets.at(wire::fields_at + i) = static_cast<std::byte>(std::stoi(fields.substr(2 * i, 2), nullptr, 16));
+    for (std::size_t i = 0; 2 * i < fields.size(); ++i)
+      octets.at(wire::fields_at + i) = static_cast<std::byte>(std::stoi(fields.substr(2 * i, 2), nullptr, 16));
     return octets;
   }
   /// The same message with later sequence numbers.
@@ -154,7 +177,8 @@ class WordBench {
     std::string all;
     for (const auto& each : nodes_) {
       node::NodeStatus status{each->loaded.config.node, {}, now_.since_start().ps() / 1000};
-      for (const auto& seat : each->seats) status.programs.push_back({&seat->of.program, &seat->member, &seat->cycles, &seat->peers, now_, 0});
+      for (const auto& seat : each->seats)
+        status.programs.push_back({&seat->of.program, &seat->member, &seat->cycles, &seat->peers, now_, 0});
       const std::string json = node::to_json(status);
       all += json + "\n" + node::status_text(json);
       node::TransitionLog(log_).ended(status);
@@ -164,7 +188,9 @@ class WordBench {
   bool all_in(handshake::PublishedState state) const {
     for (const auto& node : nodes_)
       for (const auto& seat : node->seats)
-        if (!(seat->member.candidate() != nullptr && seat->member.endpoint() == nullptr) && seat->member.state() != state) return false;
+        if (!(seat->member.candidate() != nullptr && seat->member.endpoint() == nullptr) &&
+            seat->member.state() != state)
+          return false;
     return true;
   }
 
@@ -177,7 +203,12 @@ class WordBench {
   };
   struct Seat {
     Seat(WordBench& of_bench, const node::LoadedProgram& program, std::size_t node)
-        : bench(of_bench), of(program), number(node), member(settings(program, node)), peers(member.peer_count()), log(of_bench.log_),
+        : bench(of_bench),
+          of(program),
+          number(node),
+          member(settings(program, node)),
+          peers(member.peer_count()),
+          log(of_bench.log_),
           alarms(member.alarm_count()) {}
     static wire::NodeSettings settings(wire::NodeSettings settings, std::size_t node) {
       settings.set_incarnation(static_cast<std::uint32_t>(1000 + node));
@@ -198,7 +229,9 @@ class WordBench {
     void open_channel(std::uint16_t life) {
       const auto& secured = *bench.nodes_[number]->loaded.config.security;
       windows.resize(security::ReplayMemory::most_streams);
-      channel.emplace(security::ChannelSettings{secured.mode, security::Nonces::lives, static_cast<std::uint16_t>(1 + number), life}, bench.nodes_[number]->loaded.keys->ring(secured.key_lifetime), security::ReplayMemory(windows));
+      channel.emplace(security::ChannelSettings{secured.mode, security::Nonces::lives,
+                                                static_cast<std::uint16_t>(1 + number), life},
+                      bench.nodes_[number]->loaded.keys->ring(secured.key_lifetime), security::ReplayMemory(windows));
     }
     std::int64_t ns() const { return bench.now_.since_start().ps() / 1000; }
     void act(const wire::SetAlarm& set) {
@@ -211,7 +244,8 @@ class WordBench {
       const uadp::Octets sealed = channel ? channel->seal(message.octets, ns()) : uadp::Octets(message.octets);
       const std::vector<std::byte> copy(sealed.begin(), sealed.end());
       if (bench.record_ != nullptr) bench.record_->push_back(copy);
-      bench.streams_[{uadp::load_little_endian<std::uint16_t>(copy.data() + 2), message.destination.writer_group_id}] = copy;
+      bench.streams_[{uadp::load_little_endian<std::uint16_t>(copy.data() + 2), message.destination.writer_group_id}] =
+          copy;
       for (const auto& other : bench.nodes_)
         if (other->number != number)
           for (const auto& seat : other->seats)
@@ -241,7 +275,8 @@ class WordBench {
   };
   struct Node {
     Node(WordBench& bench, const node::LoadedConfig& of, std::size_t place) : loaded(of), number(place) {
-      for (const node::LoadedProgram& program : of.programs) seats.push_back(std::make_unique<Seat>(bench, program, place));
+      for (const node::LoadedProgram& program : of.programs)
+        seats.push_back(std::make_unique<Seat>(bench, program, place));
       for (std::size_t i = 0; i < seats.size(); ++i)
         if (const auto outer = of.programs[i].outer) {
           seats[*outer]->nested = seats[i].get();
@@ -257,15 +292,22 @@ class WordBench {
   };
 
   static std::shared_ptr<node::LoadedConfig> load(const WordBenchGroup& group, std::size_t node) {
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / ("takt-word-bench-" + std::to_string(::getpid()) + ".json");
+    const std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("takt-word-bench-" + std::to_string(::getpid()) + ".json");
     const std::filesystem::path keys = path.string() + ".keys";
     if (!group.security.empty()) {
       const bool is_256 = group.security.find("aes256") != std::string::npos;
-      std::ofstream(keys) << R"({"group": "cell", "policy": ")" << (is_256 ? "aes256-ctr" : "aes128-ctr") << R"(", "secret": ")" << std::string(64, '5') << "\"}";
+      std::ofstream(keys) << R"({"group": "cell", "policy": ")" << (is_256 ? "aes256-ctr" : "aes128-ctr")
+                          << R"(", "secret": ")" << std::string(64, '5') << "\"}";
       std::filesystem::permissions(keys, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     }
-    std::ofstream(path) << R"({"node": ")" << group.nodes[node].first << R"(", "transport": {"kind": "ethernet", "interface": "eth0"}, "programs": [)" << group.programs << "]"
-                        << group.nodes[node].second << (group.security.empty() ? "" : R"(, "security": {"key_lifetime": "40ms", "keys": ")" + keys.string() + "\", " + group.security + "}") << "}";
+    std::ofstream(path) << R"({"node": ")" << group.nodes[node].first
+                        << R"(", "transport": {"kind": "ethernet", "interface": "eth0"}, "programs": [)"
+                        << group.programs << "]" << group.nodes[node].second
+                        << (group.security.empty() ? ""
+                                                   : R"(, "security": {"key_lifetime": "40ms", "keys": ")" +
+                                                         keys.string() + "\", " + group.security + "}")
+                        << "}";
     json::Diagnostics diagnostics;
     std::shared_ptr<node::LoadedConfig> loaded = node::load_config(path.string(), diagnostics);
     std::filesystem::remove(path);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run of a resolved scenario under the eyes of a wire checker.
 #pragma once
 
@@ -13,13 +14,16 @@ inline std::vector<Change> changes_of(const scenario::Resolved& resolved) {
   std::vector<Change> changes;
   for (const scenario::ResolvedAction& action : resolved.script) {
     const Ps at = action.at.ps();
-    if (const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what)) changes.push_back({at, Change::Gates{gates->node, gates->port, gates->gates}});
+    if (const auto* const gates = std::get_if<scenario::ResolvedGates>(&action.what))
+      changes.push_back({at, Change::Gates{gates->node, gates->port, gates->gates}});
     if (const auto* const stuck = std::get_if<scenario::ResolvedStuckGate>(&action.what))
       changes.push_back({at, Change::StuckGate{stuck->node, stuck->port, stuck->traffic_class, stuck->open}});
-    if (const auto* const link = std::get_if<scenario::ResolvedLink>(&action.what)) changes.push_back({at, Change::LinkState{link->link, link->up}});
+    if (const auto* const link = std::get_if<scenario::ResolvedLink>(&action.what))
+      changes.push_back({at, Change::LinkState{link->link, link->up}});
     if (const auto* const node = std::get_if<scenario::ResolvedNode>(&action.what))
       for (std::uint32_t l = 0; l < resolved.plan.links.size(); ++l)
-        if (resolved.plan.links[l].a.node == node->node || resolved.plan.links[l].b.node == node->node) changes.push_back({at, Change::LinkState{l, node->up}});
+        if (resolved.plan.links[l].a.node == node->node || resolved.plan.links[l].b.node == node->node)
+          changes.push_back({at, Change::LinkState{l, node->up}});
     if (std::holds_alternative<scenario::ResolvedRoutes>(action.what)) changes.push_back({at, Change::Routes{}});
   }
   return changes;
@@ -48,9 +52,11 @@ inline bool hosts_hold(const scenario::Resolved& resolved) {
 class CheckedRun {
  public:
   explicit CheckedRun(const scenario::Resolved& resolved, std::uint64_t tie_shuffle = 0)
-      : run(resolved, tie_shuffle), checker(resolved.plan, changes_of(resolved), directory_of(run.network()), [this](models::FrameIndex handle) -> const models::Frame& {
-          return run.network().traffic().frame(handle);
-        }) {
+      : run(resolved, tie_shuffle),
+        checker(resolved.plan, changes_of(resolved), directory_of(run.network()),
+                [this](models::FrameIndex handle) -> const models::Frame& {
+                  return run.network().traffic().frame(handle);
+                }) {
     run.simulation().set_trace(&checker);
   }
   CheckedRun(const CheckedRun&) = delete;
@@ -90,7 +96,9 @@ class CheckedRun {
     bool cuts_through = false;
     for (const models::PortConfig& config : run.resolved().plan.port_configs) cuts_through |= config.cut_through != 0;
     const auto compare = [&](const char* what, std::uint64_t a, std::uint64_t b) {
-      if (cuts_through ? a > b : a != b) checker.violations().add(run.end().ps(), "frame pool", std::string(what) + ": " + std::to_string(a) + " and " + std::to_string(b));
+      if (cuts_through ? a > b : a != b)
+        checker.violations().add(run.end().ps(), "frame pool",
+                                 std::string(what) + ": " + std::to_string(a) + " and " + std::to_string(b));
     };
     compare("references of live frames, frames in flight", references, in_flight);
     compare("live frames among those seen, all live frames", alive, traffic.live_frames());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The credit of one class (IEEE 802.1Q 8.6.8.2), counted along what is seen on the wire. Exact rational arithmetic.
 #pragma once
 
@@ -11,8 +12,11 @@ namespace takt::wire_checker {
 class CreditAccount {
  public:
   CreditAccount(std::uint64_t rate, const models::CreditBased& shaper, models::TrafficClass q)
-      : rate_(static_cast<std::int64_t>(rate)), idle_(static_cast<std::int64_t>(shaper.idle_slope.bits_per_second)), admin_idle_(idle_),
-        of_whole_cycle_(shaper.of_whole_cycle), class_(q) {}
+      : rate_(static_cast<std::int64_t>(rate)),
+        idle_(static_cast<std::int64_t>(shaper.idle_slope.bits_per_second)),
+        admin_idle_(idle_),
+        of_whole_cycle_(shaper.of_whole_cycle),
+        class_(q) {}
 
   /// Time goes on to `to` with the gate as it is. The account has been told of everything before.
   void flow(Ps to, bool gate_open) {
@@ -62,9 +66,11 @@ class CreditAccount {
   }
   /// Bits, for texts.
   double bits() const { return static_cast<double>(credit_) / 1e12 / static_cast<double>(denominator_); }
-  /// credit >= send_slope * duration, the least that a transmission of that length brings about. Of an unknown former slope only
-  /// the port's rate is certain.
-  bool is_above_lo(Ps duration) const { return credit_ >= ((slope_has_changed_ ? 0 : sim::int128{idle_}) - sim::int128{rate_} * denominator_) * duration; }
+  /// credit >= send_slope * duration, the least that a transmission of that length brings about. Of an unknown former
+  /// slope only the port's rate is certain.
+  bool is_above_lo(Ps duration) const {
+    return credit_ >= ((slope_has_changed_ ? 0 : sim::int128{idle_}) - sim::int128{rate_} * denominator_) * duration;
+  }
   /// credit <= idle_slope * duration, the most that so much interference brings about.
   bool is_below_hi(Ps duration) const { return credit_ <= sim::int128{idle_} * duration; }
 
@@ -73,7 +79,7 @@ class CreditAccount {
   Ps at_ = 0;
   Ps busy_until_ = 0;
   std::int64_t rate_;
-  std::int64_t idle_;       // on denominator_
+  std::int64_t idle_;  // on denominator_
   std::int64_t admin_idle_;
   std::int64_t denominator_ = 1;
   bool of_whole_cycle_;

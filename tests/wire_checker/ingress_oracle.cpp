@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/wire_checker/ingress_oracle.hpp"
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 namespace takt::wire_checker {
 namespace {
 
-constexpr sim::int128 bit = 1'000'000'000'000;         // at CIR, in 1 ps / CIR
-constexpr sim::int128 octet_of_tokens = 8 * bit;       // in 1 / (8 * 10^12) octet
+constexpr sim::int128 bit = 1'000'000'000'000;    // at CIR, in 1 ps / CIR
+constexpr sim::int128 octet_of_tokens = 8 * bit;  // in 1 / (8 * 10^12) octet
 
 bool matches(const models::AddressIdentification& entry, const models::Frame& frame) {
   if (entry.destination != frame.destination) return false;
@@ -19,15 +20,23 @@ bool matches(const models::AddressIdentification& entry, const models::Frame& fr
 }  // namespace
 
 IngressOracle::IngressOracle(const models::IngressConfig& config, std::uint32_t first_group)
-    : config_(config), first_group_(first_group), blocked_(config.stream_filters.size(), false), group_times_(config.ats_groups.size(), 0) {
+    : config_(config),
+      first_group_(first_group),
+      blocked_(config.stream_filters.size(), false),
+      group_times_(config.ats_groups.size(), 0) {
   for (const models::StreamGateConfig& gate : config.stream_gates) {
-    gates_.push_back({ListMachine(ListEntry{{}, gate.admin_gate_open ? models::all_gates_open : models::GateStates{0}, 0, gate.admin_ipv, {}}), never, 0, false});
+    gates_.push_back(
+        {ListMachine(ListEntry{
+             {}, gate.admin_gate_open ? models::all_gates_open : models::GateStates{0}, 0, gate.admin_ipv, {}}),
+         never, 0, false});
     if (!gate.admin_control_list.empty()) gates_.back().machine.start_with(list_config_of(gate), gate.is_running);
   }
   for (const models::NamedFlowMeterConfig& meter : config.flow_meters)
-    meters_.push_back({octet_of_tokens * meter.meter.committed_burst_size.count, octet_of_tokens * meter.meter.excess_burst_size.count, 0, false});
+    meters_.push_back({octet_of_tokens * meter.meter.committed_burst_size.count,
+                       octet_of_tokens * meter.meter.excess_burst_size.count, 0, false});
   // The bucket is full at time 0: BucketEmptyTime = -(CBS / CIR).
-  for (const models::AtsSchedulerConfig& scheduler : config.ats_schedulers) buckets_.push_back({-(bit * 8 * scheduler.committed_burst_size.count)});
+  for (const models::AtsSchedulerConfig& scheduler : config.ats_schedulers)
+    buckets_.push_back({-(bit * 8 * scheduler.committed_burst_size.count)});
 }
 
 IngressOracle::Found IngressOracle::identify(const models::Frame& frame) const {
@@ -39,9 +48,12 @@ IngressOracle::Found IngressOracle::identify(const models::Frame& frame) const {
   header.priority = frame.priority;
   for (const models::StreamIdentityEntry& entry : config_.stream_identity_table) {
     bool found = false;
-    if (const auto* const address = std::get_if<models::AddressIdentification>(&entry.function)) found = matches(*address, frame);
-    if (const auto* const source = std::get_if<models::SourceMacAndVlanIdentification>(&entry.function)) found = identifies(*source, header);
-    if (const auto* const mask = std::get_if<models::MaskAndMatchIdentification>(&entry.function)) found = identifies(*mask, header);
+    if (const auto* const address = std::get_if<models::AddressIdentification>(&entry.function))
+      found = matches(*address, frame);
+    if (const auto* const source = std::get_if<models::SourceMacAndVlanIdentification>(&entry.function))
+      found = identifies(*source, header);
+    if (const auto* const mask = std::get_if<models::MaskAndMatchIdentification>(&entry.function))
+      found = identifies(*mask, header);
     if (found) return {entry.stream.value, entry.member};
   }
   return {};
@@ -68,8 +80,10 @@ IngressOracle::Verdict IngressOracle::pass(const models::Frame& frame, std::uint
     if (filter.priority && *filter.priority != frame.priority) continue;
     Verdict verdict;
     if (!filter_accepts(f, msdu)) return {models::DropReason::stream_max_sdu, {}, {}};
-    if (!filter.stream_gate.is_none() && !gate_passes(filter.stream_gate.value, msdu, arrival, verdict.ipv)) return {models::DropReason::stream_gate, {}, {}};
-    if (!filter.flow_meter.is_none() && !meter_passes(filter.flow_meter.value, length, frame.drop_eligible, arrival)) return {models::DropReason::flow_meter, {}, {}};
+    if (!filter.stream_gate.is_none() && !gate_passes(filter.stream_gate.value, msdu, arrival, verdict.ipv))
+      return {models::DropReason::stream_gate, {}, {}};
+    if (!filter.flow_meter.is_none() && !meter_passes(filter.flow_meter.value, length, frame.drop_eligible, arrival))
+      return {models::DropReason::flow_meter, {}, {}};
     if (filter.ats_scheduler.is_none()) {
       if (verdict.ipv) verdict.eligible = arrival;  // a frame that nothing marks is eligible from the beginning of time
       return verdict;
@@ -119,10 +133,15 @@ bool IngressOracle::meter_passes(std::size_t m, std::uint32_t length, bool drop_
   meter.last = arrival;
   const sim::int128 committed_burst = octet_of_tokens * config.committed_burst_size.count;
   const sim::int128 excess_burst = octet_of_tokens * config.excess_burst_size.count;
-  const sim::int128 filled = meter.committed + sim::int128{elapsed} * static_cast<std::int64_t>(config.committed_information_rate.bits_per_second);
+  const sim::int128 filled =
+      meter.committed +
+      sim::int128{elapsed} * static_cast<std::int64_t>(config.committed_information_rate.bits_per_second);
   const sim::int128 overflow = std::max<sim::int128>(0, filled - committed_burst);
   meter.committed = std::min(committed_burst, filled);
-  meter.excess = std::min(excess_burst, meter.excess + sim::int128{elapsed} * static_cast<std::int64_t>(config.excess_information_rate.bits_per_second) + (config.coupling_flag ? overflow : 0));
+  meter.excess = std::min(
+      excess_burst,
+      meter.excess + sim::int128{elapsed} * static_cast<std::int64_t>(config.excess_information_rate.bits_per_second) +
+          (config.coupling_flag ? overflow : 0));
   if (meter.all_red) return false;
   const bool is_green = config.color_mode == models::ColorMode::color_blind || !drop_eligible;
   const sim::int128 tokens = octet_of_tokens * length;
@@ -137,12 +156,16 @@ bool IngressOracle::meter_passes(std::size_t m, std::uint32_t length, bool drop_
   return passes;
 }
 
-/// ProcessFrame (8.6.11.3). An eligibility time that is not a whole picosecond is rounded up; the bucket goes on with the exact one.
-std::optional<Ps> IngressOracle::eligibility(std::size_t s, const models::Frame& frame, std::uint32_t length, std::uint16_t port, Ps arrival) {
+/// ProcessFrame (8.6.11.3). An eligibility time that is not a whole picosecond is rounded up; the bucket goes on with
+/// the exact one.
+std::optional<Ps> IngressOracle::eligibility(std::size_t s, const models::Frame& frame, std::uint32_t length,
+                                             std::uint16_t port, Ps arrival) {
   const models::AtsSchedulerConfig& config = config_.ats_schedulers[s];
   const bool has_group = !config.group.is_none();
-  const Ps longest = (has_group ? config_.ats_groups[config.group.value].maximum_residence_time : config_.maximum_residence_time).ps();
-  Ps& group_time = has_group ? group_times_[config.group.value] : port_group_times_[{port, config_.traffic_class_of_priority[frame.priority]}];
+  const Ps longest =
+      (has_group ? config_.ats_groups[config.group.value].maximum_residence_time : config_.maximum_residence_time).ps();
+  Ps& group_time = has_group ? group_times_[config.group.value]
+                             : port_group_times_[{port, config_.traffic_class_of_priority[frame.priority]}];
   const auto rate = static_cast<std::int64_t>(config.committed_information_rate.bits_per_second);
 
   const sim::int128 length_recovery = bit * 8 * (length + (config.media_overhead ? 20 : 0));

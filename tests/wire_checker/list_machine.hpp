@@ -1,5 +1,6 @@
-// The three state machines of IEEE 802.1Q clause 8.6.9, run literally from event to event: what the gates of a port, or a stream
-// gate, do. Knows nothing of models/egress/cyclic_schedule.hpp. A copy runs on into the future.
+// SPDX-License-Identifier: Apache-2.0
+// The three state machines of IEEE 802.1Q clause 8.6.9, run literally from event to event: what the gates of a port, or
+// a stream gate, do. Knows nothing of models/egress/cyclic_schedule.hpp. A copy runs on into the future.
 #pragma once
 
 #include <algorithm>
@@ -37,13 +38,18 @@ struct ListConfig {
 
 inline ListConfig list_config_of(const models::GateConfig& gates) {
   ListConfig config{{}, gates.admin_base_time.ps(), gates.admin_cycle_time.ps(), gates.admin_cycle_time_extension.ps()};
-  for (const models::GateControlEntry& entry : gates.admin_control_list) config.list.push_back({entry.operation, entry.gate_states, entry.interval.ps()});
+  for (const models::GateControlEntry& entry : gates.admin_control_list)
+    config.list.push_back({entry.operation, entry.gate_states, entry.interval.ps()});
   return config;
 }
 inline ListConfig list_config_of(const models::StreamGateConfig& gate) {
   ListConfig config{{}, gate.admin_base_time.ps(), gate.admin_cycle_time.ps(), gate.admin_cycle_time_extension.ps()};
   for (const models::StreamGateEntry& entry : gate.admin_control_list)
-    config.list.push_back({{}, entry.open ? models::all_gates_open : models::GateStates{0}, entry.interval.ps(), entry.ipv, entry.interval_octet_max});
+    config.list.push_back({{},
+                           entry.open ? models::all_gates_open : models::GateStates{0},
+                           entry.interval.ps(),
+                           entry.ipv,
+                           entry.interval_octet_max});
   return config;
 }
 
@@ -57,7 +63,8 @@ class ListMachine {
     while (next_event() <= now) tick(next_event());
     now_ = std::max(now_, now);
   }
-  /// ConfigChange at `now`, before anything else of that instant but a list whose time has come. run_to(now) comes next.
+  /// ConfigChange at `now`, before anything else of that instant but a list whose time has come. run_to(now) comes
+  /// next.
   void request(Ps now, const ListConfig& config) {
     if (now > 0) run_to(now - 1);
     now_ = now;
@@ -69,10 +76,12 @@ class ListMachine {
     update_config();
   }
 
-  /// What a device starts with: set at the start, or, if it is running then, so long ago that it has begun as its base time says. The last three cycles tell all that there is to know of earlier ones.
+  /// What a device starts with: set at the start, or, if it is running then, so long ago that it has begun as its base
+  /// time says. The last three cycles tell all that there is to know of earlier ones.
   void start_with(ListConfig config, bool is_running) {
     if (!is_running || config.base_time >= 0) return request(0, config);
-    if (const Ps over = -config.base_time / config.cycle_time; over > 3) config.base_time += (over - 3) * config.cycle_time;
+    if (const Ps over = -config.base_time / config.cycle_time; over > 3)
+      config.base_time += (over - 3) * config.cycle_time;
     request(config.base_time, config);
     run_to(0);
   }
@@ -140,7 +149,8 @@ class ListMachine {
     entry_ = oper_->list[list_pointer_++];
     exit_time_ = now_ + (entry_.interval == 0 ? 1'000 : entry_.interval);
     executed_at_ = now_;
-    if (entry_.operation != models::GateOperation::set_gate_states) holds_ = entry_.operation == models::GateOperation::set_and_hold_mac;
+    if (entry_.operation != models::GateOperation::set_gate_states)
+      holds_ = entry_.operation == models::GateOperation::set_and_hold_mac;
   }
 
   Ps now_ = 0;

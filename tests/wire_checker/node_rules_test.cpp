@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hand-made records of a small network, right and wrong: each rule about frames between ports must be able to fail.
 //
-// h1 - sw - h2, 1 Gb/s, no delays: a frame of 100 octets that starts at 0 is in the switch at (8 + 100) * 8 ns = 864 ns.
+// h1 - sw - h2, 1 Gb/s, no delays: a frame of 100 octets that starts at 0 is in the switch at (8 + 100) * 8 ns = 864
+// ns.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -60,12 +62,22 @@ class Records {
     return *this;
   }
   Records& produced(Ps time, std::uint32_t handle) { return add(time, Occurrence::produced, 99, handle, 0); }
-  Records& started(Ps time, std::uint32_t port, std::uint32_t handle) { return add(time, Occurrence::started, port, handle, models::TransmissionDetail{frames_[handle].length, 5}.pack()); }
-  Records& enqueued(Ps time, std::uint32_t port, std::uint32_t handle) { return add(time, Occurrence::enqueued, port, handle, 5); }
-  Records& dequeued(Ps time, std::uint32_t port, std::uint32_t handle) { return add(time, Occurrence::dequeued, port, handle, 5); }
-  Records& dropped(Ps time, std::uint32_t where, std::uint32_t handle, DropReason reason) { return add(time, Occurrence::drop, where, handle, static_cast<std::uint64_t>(reason)); }
+  Records& started(Ps time, std::uint32_t port, std::uint32_t handle) {
+    return add(time, Occurrence::started, port, handle, models::TransmissionDetail{frames_[handle].length, 5}.pack());
+  }
+  Records& enqueued(Ps time, std::uint32_t port, std::uint32_t handle) {
+    return add(time, Occurrence::enqueued, port, handle, 5);
+  }
+  Records& dequeued(Ps time, std::uint32_t port, std::uint32_t handle) {
+    return add(time, Occurrence::dequeued, port, handle, 5);
+  }
+  Records& dropped(Ps time, std::uint32_t where, std::uint32_t handle, DropReason reason) {
+    return add(time, Occurrence::drop, where, handle, static_cast<std::uint64_t>(reason));
+  }
   /// The frame of sequence number n all the way, from `time` on.
-  Records& all_the_way(Ps time, std::uint32_t handle) { return produced(time, handle).started(time, h1_port, handle).started(time + 864 * ns, sw_to_h2, handle); }
+  Records& all_the_way(Ps time, std::uint32_t handle) {
+    return produced(time, handle).started(time, h1_port, handle).started(time + 864 * ns, sw_to_h2, handle);
+  }
 
   std::string until(Ps end) {
     check(end);
@@ -84,12 +96,14 @@ class Records {
     models::Frame frame;
   };
   Records& add(Ps time, Occurrence occurrence, std::uint32_t where, std::uint32_t handle, std::uint64_t detail) {
-    lines_.push_back({{sim::TrueTime::from_ps(time), static_cast<std::uint32_t>(occurrence), {where}, handle, detail}, frames_[handle]});
+    lines_.push_back({{sim::TrueTime::from_ps(time), static_cast<std::uint32_t>(occurrence), {where}, handle, detail},
+                      frames_[handle]});
     return *this;
   }
   void check(Ps end) {
     const Directory directory{{{{0}}, {{1}}, {{2}}}, {{{h1_port}}, {{sw_to_h1}, {sw_to_h2}}, {{13}}}};
-    checker_ = std::make_shared<WireChecker>(builder_.plan, changes_, directory, [this](models::FrameIndex) -> const models::Frame& { return present_; });
+    checker_ = std::make_shared<WireChecker>(builder_.plan, changes_, directory,
+                                             [this](models::FrameIndex) -> const models::Frame& { return present_; });
     for (const Line& line : lines_) {
       present_ = line.frame;
       checker_->record(line.record);
@@ -117,15 +131,26 @@ models::Stream counted(std::uint64_t sent, std::uint64_t delivered) {
 
 TEST(NodeRules, AFrameGoesItsWay) {
   EXPECT_NOTHING(Records().frame(1, 0).all_the_way(0, 1).until(9'000 * ns, counted(1, 1)));
-  EXPECT_FOUND(Records().frame(1, 0).produced(0, 1).started(0, h1_port, 1).until(9'000 * ns), "has arrived and neither goes on nor is dropped");
-  EXPECT_NOTHING(Records().frame(1, 0).produced(0, 1).started(0, h1_port, 1).dropped(864 * ns, sw, 1, DropReason::no_filtering_entry).until(9'000 * ns));
-  EXPECT_FOUND(Records().frame(1, 0).all_the_way(0, 1).started(3'000 * ns, sw_to_h2, 1).until(9'000 * ns), "comes from nowhere");
-  EXPECT_FOUND(Records().frame(1, 0).produced(0, 1).started(0, h1_port, 1).started(863 * ns, sw_to_h2, 1).until(9'000 * ns), "comes from nowhere");
+  EXPECT_FOUND(Records().frame(1, 0).produced(0, 1).started(0, h1_port, 1).until(9'000 * ns),
+               "has arrived and neither goes on nor is dropped");
+  EXPECT_NOTHING(Records()
+                     .frame(1, 0)
+                     .produced(0, 1)
+                     .started(0, h1_port, 1)
+                     .dropped(864 * ns, sw, 1, DropReason::no_filtering_entry)
+                     .until(9'000 * ns));
+  EXPECT_FOUND(Records().frame(1, 0).all_the_way(0, 1).started(3'000 * ns, sw_to_h2, 1).until(9'000 * ns),
+               "comes from nowhere");
+  EXPECT_FOUND(
+      Records().frame(1, 0).produced(0, 1).started(0, h1_port, 1).started(863 * ns, sw_to_h2, 1).until(9'000 * ns),
+      "comes from nowhere");
   EXPECT_FOUND(Records().frame(1, 0).started(0, h1_port, 1).until(800 * ns), "leaves a host that has not produced it");
 }
 
 TEST(NodeRules, AccountsAgree) {
-  const auto records = [] { return Records().frame(1, 0).frame(2, 1).all_the_way(0, 1).produced(2'000 * ns, 2).started(2'000 * ns, h1_port, 2); };
+  const auto records = [] {
+    return Records().frame(1, 0).frame(2, 1).all_the_way(0, 1).produced(2'000 * ns, 2).started(2'000 * ns, h1_port, 2);
+  };
   EXPECT_NOTHING(records().until(2'500 * ns, counted(2, 1)));  // the second one is on the first link
   EXPECT_FOUND(records().until(2'500 * ns, counted(2, 2)), "frames delivered: 1 on the wire, 2 counted");
   EXPECT_FOUND(records().until(2'500 * ns, counted(3, 1)), "frames sent: 2 on the wire, 3 counted");
@@ -136,14 +161,34 @@ TEST(NodeRules, AccountsAgree) {
 }
 
 TEST(NodeRules, FramesArriveInOrder) {
-  EXPECT_FOUND(Records().frame(1, 0).frame(2, 1).produced(0, 1).produced(0, 2).started(0, h1_port, 2).started(864 * ns, sw_to_h2, 2).started(1'000 * ns, h1_port, 1).started(1'864 * ns, sw_to_h2, 1).until(9'000 * ns),
+  EXPECT_FOUND(Records()
+                   .frame(1, 0)
+                   .frame(2, 1)
+                   .produced(0, 1)
+                   .produced(0, 2)
+                   .started(0, h1_port, 2)
+                   .started(864 * ns, sw_to_h2, 2)
+                   .started(1'000 * ns, h1_port, 1)
+                   .started(1'864 * ns, sw_to_h2, 1)
+                   .until(9'000 * ns),
                "arrives after a later one");
 }
 
 TEST(NodeRules, LinksThatFailLoseWithAReason) {
   const std::vector<Change> down = {{500 * ns, Change::LinkState{0, false}}};
-  EXPECT_NOTHING(Records({}, down).frame(1, 0).produced(0, 1).started(0, h1_port, 1).dropped(864 * ns, h1_port, 1, DropReason::link_down).until(9'000 * ns));
-  EXPECT_FOUND(Records({}, down).frame(1, 0).produced(700 * ns, 1).started(700 * ns, h1_port, 1).dropped(1'564 * ns, h1_port, 1, DropReason::link_down).until(9'000 * ns), "starts on a link that is down");
+  EXPECT_NOTHING(Records({}, down)
+                     .frame(1, 0)
+                     .produced(0, 1)
+                     .started(0, h1_port, 1)
+                     .dropped(864 * ns, h1_port, 1, DropReason::link_down)
+                     .until(9'000 * ns));
+  EXPECT_FOUND(Records({}, down)
+                   .frame(1, 0)
+                   .produced(700 * ns, 1)
+                   .started(700 * ns, h1_port, 1)
+                   .dropped(1'564 * ns, h1_port, 1, DropReason::link_down)
+                   .until(9'000 * ns),
+               "starts on a link that is down");
 }
 
 // 8 Mb/s and a burst of 120 octets: the first frame passes at once, the next 120 octets later = 120 us.
@@ -177,14 +222,17 @@ TEST(NodeRules, AsynchronousTrafficShaping) {
     return all;
   };
   EXPECT_NOTHING(starting(eligible, eligible).until(200'000 * ns));
-  EXPECT_FOUND(starting(eligible, eligible + 1).until(200'000 * ns), "is eligible at 120864001 ps instead of 120864000");
+  EXPECT_FOUND(starting(eligible, eligible + 1).until(200'000 * ns),
+               "is eligible at 120864001 ps instead of 120864000");
   EXPECT_FOUND(starting(eligible - 1, eligible).until(200'000 * ns), "starts 1 ps before its eligibility time");
   EXPECT_FOUND(starting(eligible + 1, eligible).until(200'000 * ns), "120864000 ps, sw:1 to h2: the medium is idle");
   // It would stay for 119 us.
   const auto limited = [&](Ps residence) { return records(sim::Duration::from_ps(residence)); };
-  EXPECT_FOUND(limited(118'999 * ns).mark(2, eligible).enqueued(1'864 * ns, sw_to_h2, 2).until(10'000 * ns), "is not dropped for residence_time");
+  EXPECT_FOUND(limited(118'999 * ns).mark(2, eligible).enqueued(1'864 * ns, sw_to_h2, 2).until(10'000 * ns),
+               "is not dropped for residence_time");
   EXPECT_NOTHING(limited(118'999 * ns).dropped(1'864 * ns, sw, 2, DropReason::residence_time).until(10'000 * ns));
-  EXPECT_FOUND(limited(119'000 * ns).dropped(1'864 * ns, sw, 2, DropReason::residence_time).until(10'000 * ns), "is dropped for residence_time, which the configuration does not ask for");
+  EXPECT_FOUND(limited(119'000 * ns).dropped(1'864 * ns, sw, 2, DropReason::residence_time).until(10'000 * ns),
+               "is dropped for residence_time, which the configuration does not ask for");
 }
 
 // The same over a switch that takes 500 us: the second frame may start so long after its eligibility time, and not when
@@ -220,16 +268,19 @@ TEST(NodeRules, Policing) {
   filter.flow_meter = models::FlowMeterIndex{0};
   config.stream_filters.push_back(filter);
   models::StreamGateConfig gate;
-  gate.admin_control_list = {{true, {}, sim::Duration::from_ps(1'500 * ns), {}}, {false, {}, sim::Duration::from_ps(1'500 * ns), {}}};
+  gate.admin_control_list = {{true, {}, sim::Duration::from_ps(1'500 * ns), {}},
+                             {false, {}, sim::Duration::from_ps(1'500 * ns), {}}};
   gate.admin_cycle_time = sim::Duration::from_ps(3'000 * ns);
   config.stream_gates.push_back(gate);
   config.flow_meters.push_back({"m", {sim::DataRate{0}, models::Octets{100}, sim::DataRate{0}, models::Octets{0}}});
-  EXPECT_FOUND(two_frames(config).started(1'864 * ns, sw_to_h2, 2).until(10'000 * ns), "is not dropped for stream_gate");
+  EXPECT_FOUND(two_frames(config).started(1'864 * ns, sw_to_h2, 2).until(10'000 * ns),
+               "is not dropped for stream_gate");
   EXPECT_NOTHING(two_frames(config).dropped(1'864 * ns, sw, 2, DropReason::stream_gate).until(10'000 * ns));
   config.stream_gates[0].admin_control_list[1].open = true;
   EXPECT_FOUND(two_frames(config).started(1'864 * ns, sw_to_h2, 2).until(10'000 * ns), "is not dropped for flow_meter");
   config.flow_meters[0].meter.committed_burst_size = models::Octets{200};
-  EXPECT_FOUND(two_frames(config).dropped(1'864 * ns, sw, 2, DropReason::flow_meter).until(10'000 * ns), "is dropped for flow_meter, which the configuration does not ask for");
+  EXPECT_FOUND(two_frames(config).dropped(1'864 * ns, sw, 2, DropReason::flow_meter).until(10'000 * ns),
+               "is dropped for flow_meter, which the configuration does not ask for");
 }
 
 TEST(NodeRules, CopiesAreTakenOut) {
@@ -239,7 +290,11 @@ TEST(NodeRules, CopiesAreTakenOut) {
     recovery.reset_timeout = sim::Duration::from_ps(reset_timeout);
     all.plan().host_recoveries.push_back({models::NodeIndex{2}, models::StreamIndex{0}, recovery});
     all.plan().host_splits.push_back({models::StreamIndex{0}, {}});
-    all.frame(1, 0, 0).frame(2, 0, 0).all_the_way(0, 1).started(2'000 * ns, h1_port, 2).started(2'864 * ns, sw_to_h2, 2);
+    all.frame(1, 0, 0)
+        .frame(2, 0, 0)
+        .all_the_way(0, 1)
+        .started(2'000 * ns, h1_port, 2)
+        .started(2'864 * ns, sw_to_h2, 2);
     return all;
   };
   EXPECT_FOUND(records(1'000'000 * ns).until(9'000 * ns), "passes the sequence recovery a second time");

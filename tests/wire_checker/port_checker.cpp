@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/wire_checker/port_checker.hpp"
 
 #include <algorithm>
@@ -6,21 +7,29 @@
 
 namespace takt::wire_checker {
 
-using models::TrafficClass;
 using models::traffic_class_count;
+using models::TrafficClass;
 
 PortChecker::PortChecker(std::string name, const models::PortConfig& config, sim::DataRate rate, Violations& violations)
-    : name_(std::move(name)), config_(config), violations_(violations), octet_(rate.octet_time().ps()),
-      gates_(ListEntry{{}, config.shaping.admin_gate_states, 0, {}, {}}), has_gates_(config.shaping.admin_gate_states != models::all_gates_open), shares_(config.shaping) {
+    : name_(std::move(name)),
+      config_(config),
+      violations_(violations),
+      octet_(rate.octet_time().ps()),
+      gates_(ListEntry{{}, config.shaping.admin_gate_states, 0, {}, {}}),
+      has_gates_(config.shaping.admin_gate_states != models::all_gates_open),
+      shares_(config.shaping) {
   for (TrafficClass q = 0; q < traffic_class_count; ++q)
-    if (const models::CreditBased* const shaper = config.shaping.shaper_of(q)) credits_[q].emplace(rate.bits_per_second, *shaper, q);
+    if (const models::CreditBased* const shaper = config.shaping.shaper_of(q))
+      credits_[q].emplace(rate.bits_per_second, *shaper, q);
   // An express frame waits for at most 8 + 123 + 12 octets, and 64 more for each addFragSize.
-  if (config.preemption) hold_advance_ = config.preemption->hold_advance ? config.preemption->hold_advance->ps() : octet_ * (143 + 64 * config.preemption->add_frag_size.value());
+  if (config.preemption)
+    hold_advance_ = config.preemption->hold_advance ? config.preemption->hold_advance->ps()
+                                                    : octet_ * (143 + 64 * config.preemption->add_frag_size.value());
   if (config.shaping.gates) {
     note_gates(list_config_of(*config.shaping.gates));
     gates_.start_with(list_config_of(*config.shaping.gates), config.shaping.gates->is_running);
   }
-  settle_gates();
+  advance_gates();
 }
 
 void PortChecker::request_gates(const ListConfig& gates) {
@@ -30,7 +39,9 @@ void PortChecker::request_gates(const ListConfig& gates) {
 
 void PortChecker::note_gates(const ListConfig& gates) {
   has_gates_ = true;
-  may_hold_ = may_hold_ || std::any_of(gates.list.begin(), gates.list.end(), [](const ListEntry& entry) { return entry.operation != models::GateOperation::set_gate_states; });
+  may_hold_ = may_hold_ || std::any_of(gates.list.begin(), gates.list.end(), [](const ListEntry& entry) {
+                return entry.operation != models::GateOperation::set_gate_states;
+              });
 }
 
 void PortChecker::force_gate(TrafficClass q, std::optional<bool> open) { forced_[q] = open; }
@@ -43,7 +54,7 @@ void PortChecker::begin(Ps now) {
     for (TrafficClass q = 0; q < traffic_class_count; ++q)
       if (credits_[q]) credits_[q]->flow(next, gate_open(q, gates_));
     now_ = next;
-    if (next < now) settle_gates();
+    if (next < now) advance_gates();
   }
   started_class_.reset();
   turn_.reset();
@@ -53,7 +64,7 @@ void PortChecker::begin(Ps now) {
   check_credits();
 }
 
-void PortChecker::settle_gates() {
+void PortChecker::advance_gates() {
   gates_.run_to(now_);
   for (std::optional<CreditAccount>& credit : credits_)
     if (credit) credit->follow_list(gates_.oper());
@@ -63,12 +74,14 @@ void PortChecker::settle_gates() {
 void PortChecker::check_credits() {
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
     if (!credits_[q]) continue;
-    if (!credits_[q]->is_above_lo(longest_occupation_[q])) fail("class " + std::to_string(q) + " has a credit below loCredit");
+    if (!credits_[q]->is_above_lo(longest_occupation_[q]))
+      fail("class " + std::to_string(q) + " has a credit below loCredit");
     if (has_gates_ || config_.preemption || is_timed(q) || (classes_seen_ >> q >> 1) != 0) continue;
     Ps longest = 0;
     for (TrafficClass p = 0; p < q; ++p) longest = std::max(longest, longest_occupation_[p]);
     // A frame starts at the picosecond after its credit has reached 0.
-    if (up_ && !credits_[q]->is_below_hi(longest + 1)) fail("class " + std::to_string(q) + " has a credit above hiCredit");
+    if (up_ && !credits_[q]->is_below_hi(longest + 1))
+      fail("class " + std::to_string(q) + " has a credit above hiCredit");
   }
 }
 
@@ -80,22 +93,27 @@ TrafficClass PortChecker::class_of(const models::Frame& frame) const {
   return config_.traffic_class_of_priority[frame.marked ? frame.queue_priority : frame.priority];
 }
 
-void PortChecker::tell_credit(TrafficClass q) {
+void PortChecker::report_credit(TrafficClass q) {
   if (credits_[q]) credits_[q]->set_waiting(!queues_[q].empty());
 }
 
 /// What every start of a frame, or of the rest of one, must obey.
 void PortChecker::check_start(const Item& item, TrafficClass q, std::uint32_t octets) {
-  if (now_ < free_at_) fail(item, "starts " + std::to_string(free_at_ - now_) + " ps before the medium is free: frames overlap or the gap is too short");
+  if (now_ < free_at_)
+    fail(item, "starts " + std::to_string(free_at_ - now_) +
+                   " ps before the medium is free: frames overlap or the gap is too short");
   if (!up_) fail(item, "starts on a link that is down");
-  if (fit(q, now_, duration_of(octets), gates_) != now_) fail(item, gate_open(q, gates_) ? "does not end before its gate closes" : "starts while its gate is closed");
+  if (fit(q, now_, duration_of(octets), gates_) != now_)
+    fail(item, gate_open(q, gates_) ? "does not end before its gate closes" : "starts while its gate is closed");
   if (is_preemptable(q) && hold_at(now_, gates_).asked) fail(item, "is preemptable and starts while the MAC holds");
 }
 
 void PortChecker::check_nobody_is_passed_over(const Item& item, TrafficClass q) {
   for (TrafficClass p = 0; p < traffic_class_count; ++p) {
     if (p == q || !comes_before(p, q) || queues_[p].empty() || !is_ready(p, queues_[p].front())) continue;
-    fail(item, "of class " + std::to_string(q) + " starts although " + wire_checker::name_of(queues_[p].front().stream, queues_[p].front().sequence) + " of class " + std::to_string(p) + " is ready");
+    fail(item, "of class " + std::to_string(q) + " starts although " +
+                   wire_checker::name_of(queues_[p].front().stream, queues_[p].front().sequence) + " of class " +
+                   std::to_string(p) + " is ready");
   }
 }
 
@@ -125,8 +143,10 @@ void PortChecker::note_turn(const Item& item, TrafficClass q) {
   turn_.emplace();
   for (TrafficClass p = 0; p < traffic_class_count; ++p) {
     if (!is_shared(p) || is_preemptable(p) != is_preemptable(q)) continue;
-    if (p == q) (*turn_)[p] = models::wire_length(models::Octets{item.length}).count;
-    else if (!queues_[p].empty() && is_ready(p, queues_[p].front())) (*turn_)[p] = models::wire_length(models::Octets{queues_[p].front().length}).count;
+    if (p == q)
+      (*turn_)[p] = models::wire_length(models::Octets{item.length}).count;
+    else if (!queues_[p].empty() && is_ready(p, queues_[p].front()))
+      (*turn_)[p] = models::wire_length(models::Octets{queues_[p].front().length}).count;
   }
 }
 
@@ -134,7 +154,9 @@ void PortChecker::note_turn(const Item& item, TrafficClass q) {
 void PortChecker::check_turn() {
   if (turn_) {
     const TrafficClass due = shares_.next(*turn_);
-    if (due != *started_class_) fail(started_item_, "of class " + std::to_string(*started_class_) + " starts although it is the turn of class " + std::to_string(due));
+    if (due != *started_class_)
+      fail(started_item_, "of class " + std::to_string(*started_class_) + " starts although it is the turn of class " +
+                              std::to_string(due));
     shares_.pay(*started_class_, (*turn_)[*started_class_]);
     turn_.reset();
   }
@@ -159,8 +181,10 @@ void PortChecker::transmit(const Fragment& fragment) {
 void PortChecker::started(const SeenFrame& seen, models::TransmissionDetail detail) {
   Item item = item_of(seen);
   const TrafficClass q = detail.traffic_class;
-  if (q != class_of(seen.frame)) fail(item, "starts in class " + std::to_string(q) + " instead of " + std::to_string(class_of(seen.frame)));
-  if (detail.octets != item.length) fail(item, "starts with " + std::to_string(detail.octets) + " octets instead of " + std::to_string(item.length));
+  if (q != class_of(seen.frame))
+    fail(item, "starts in class " + std::to_string(q) + " instead of " + std::to_string(class_of(seen.frame)));
+  if (detail.octets != item.length)
+    fail(item, "starts with " + std::to_string(detail.octets) + " octets instead of " + std::to_string(item.length));
   if (pending_ && pending_->item.handle == seen.handle) {
     item.eligible = pending_->item.eligible;
     pending_.reset();
@@ -170,25 +194,34 @@ void PortChecker::started(const SeenFrame& seen, models::TransmissionDetail deta
     if (!is_first) fail(item, "starts before frames of its class that came earlier");
   }
   check_start(item, q, item.length);
-  if (credits_[q] && credits_[q]->is_negative()) fail(item, "starts with a negative credit of " + std::to_string(credits_[q]->bits()) + " bit");
-  if (is_timed(q) && item.eligible > now_) fail(item, "starts " + std::to_string(item.eligible - now_) + " ps before its eligibility time");
+  if (credits_[q] && credits_[q]->is_negative())
+    fail(item, "starts with a negative credit of " + std::to_string(credits_[q]->bits()) + " bit");
+  if (is_timed(q) && item.eligible > now_)
+    fail(item, "starts " + std::to_string(item.eligible - now_) + " ps before its eligibility time");
   const std::uint32_t msdu = seen.frame.msdu + (seen.frame.r_tagged ? models::r_tag.count : 0u);
-  if (config_.shaping.queue_max_sdu[q].count != 0 && msdu > config_.shaping.queue_max_sdu[q].count) fail(item, "is longer than queueMaxSDU");
-  if (is_preemptable(q) && rest_) fail(item, "is preemptable and starts before the rest of " + wire_checker::name_of(rest_->item.stream, rest_->item.sequence));
+  if (config_.shaping.queue_max_sdu[q].count != 0 && msdu > config_.shaping.queue_max_sdu[q].count)
+    fail(item, "is longer than queueMaxSDU");
+  if (is_preemptable(q) && rest_)
+    fail(item, "is preemptable and starts before the rest of " +
+                   wire_checker::name_of(rest_->item.stream, rest_->item.sequence));
   check_nobody_is_passed_over(item, q);
   if (seen.is_cut_through) check_nobody_else_may_start(item);
   note_turn(item, q);
   transmit({item, q, now_, item.length, 0});
   started_is_cut_through_ = seen.is_cut_through;
-  tell_credit(q);
+  report_credit(q);
 }
 
 void PortChecker::enqueued(const SeenFrame& seen, TrafficClass q) {
   drop_pending();
   const Item item = item_of(seen);
-  if (q != class_of(seen.frame)) fail(item, "waits in class " + std::to_string(q) + " instead of " + std::to_string(class_of(seen.frame)));
+  if (q != class_of(seen.frame))
+    fail(item, "waits in class " + std::to_string(q) + " instead of " + std::to_string(class_of(seen.frame)));
   std::vector<Item>& queue = queues_[q];
-  const auto place = is_timed(q) ? std::upper_bound(queue.begin(), queue.end(), item, [](const Item& a, const Item& b) { return a.eligible < b.eligible; }) : queue.end();
+  const auto place = is_timed(q)
+                         ? std::upper_bound(queue.begin(), queue.end(), item,
+                                            [](const Item& a, const Item& b) { return a.eligible < b.eligible; })
+                         : queue.end();
   const bool is_head = place == queue.begin();
   if (displacing_) {
     const auto [last, of] = *displacing_;
@@ -199,37 +232,44 @@ void PortChecker::enqueued(const SeenFrame& seen, TrafficClass q) {
   queue.insert(place, item);
   octets_[q] += item.length;
   // One that comes behind another that was dropped for want of room did not stand first.
-  if (turn_ && is_head && !somebody_dropped_ && is_shared(q) && q != *started_class_ && is_preemptable(q) == is_preemptable(*started_class_) && is_ready(q, item))
+  if (turn_ && is_head && !somebody_dropped_ && is_shared(q) && q != *started_class_ &&
+      is_preemptable(q) == is_preemptable(*started_class_) && is_ready(q, item))
     (*turn_)[q] = models::wire_length(models::Octets{item.length}).count;
   const models::QueueLimit& limit = config_.queue_limits[q];
   if (queue.size() > limit.frames || octets_[q] > limit.octets)
-    fail(item, "is one too many: " + std::to_string(queue.size()) + " frames, " + std::to_string(octets_[q]) + " octets wait in class " + std::to_string(q));
+    fail(item, "is one too many: " + std::to_string(queue.size()) + " frames, " + std::to_string(octets_[q]) +
+                   " octets wait in class " + std::to_string(q));
   // Of the frames of an instant the most urgent one leaves; the others are queued afterwards.
   const bool rest_was_right = (started_is_rest_ && is_preemptable(q)) || models::contains(displaced_, q);
   if (started_class_ && is_head && !rest_was_right && comes_before(q, *started_class_) && is_ready(q, item))
-    fail(item, "of class " + std::to_string(q) + " has to wait for " + wire_checker::name_of(started_item_.stream, started_item_.sequence) + " of class " + std::to_string(*started_class_));
+    fail(item, "of class " + std::to_string(q) + " has to wait for " +
+                   wire_checker::name_of(started_item_.stream, started_item_.sequence) + " of class " +
+                   std::to_string(*started_class_));
   if (started_is_cut_through_ && is_head && (q == *started_class_ || is_ready(q, item)))
     fail(item, "has to wait for " + wire_checker::name_of(started_item_.stream, started_item_.sequence) +
                    ", which is cut through");
-  tell_credit(q);
+  report_credit(q);
 }
 
 void PortChecker::dequeued(const SeenFrame& seen, TrafficClass q) {
   drop_pending();
   std::vector<Item>& queue = queues_[q];
-  const auto found = std::find_if(queue.begin(), queue.end(), [&](const Item& item) { return item.handle == seen.handle; });
+  const auto found =
+      std::find_if(queue.begin(), queue.end(), [&](const Item& item) { return item.handle == seen.handle; });
   if (found == queue.end()) {
     fail(item_of(seen), "leaves a queue in which it is not");
     return;
   }
-  if (found != queue.begin()) fail(*found, "leaves its queue before " + wire_checker::name_of(queue.front().stream, queue.front().sequence));
+  if (found != queue.begin())
+    fail(*found, "leaves its queue before " + wire_checker::name_of(queue.front().stream, queue.front().sequence));
   octets_[q] -= found->length;
   pending_ = Pending{*found, q};
   queue.erase(found);
 }
 
 /// What is wrong with one more frame in a queue that holds so many; nothing if there is room.
-std::optional<models::DropReason> PortChecker::why_no_room(TrafficClass q, std::uint64_t frames, std::uint64_t octets, const Item& item) const {
+std::optional<models::DropReason> PortChecker::why_no_room(TrafficClass q, std::uint64_t frames, std::uint64_t octets,
+                                                           const Item& item) const {
   const models::QueueLimit& limit = config_.queue_limits[q];
   if (frames + 1 > limit.frames) return models::DropReason::queue_frames;
   if (octets + item.length > limit.octets) return models::DropReason::queue_octets;
@@ -246,15 +286,17 @@ void PortChecker::refused(const SeenFrame& seen, models::DropReason reason) {
   somebody_found_no_room_ = true;
   const Item item = item_of(seen);
   const TrafficClass q = class_of(seen.frame);
-  if (why_no_room(q, queues_[q].size(), octets_[q], item) != reason) fail(item, "is dropped for want of room in class " + std::to_string(q) + ", where there is room");
-  if (config_.queue_limits[q].drops_oldest && !why_no_room(q, 0, 0, item)) fail(item, "is dropped although older ones should be");
+  if (why_no_room(q, queues_[q].size(), octets_[q], item) != reason)
+    fail(item, "is dropped for want of room in class " + std::to_string(q) + ", where there is room");
+  if (config_.queue_limits[q].drops_oldest && !why_no_room(q, 0, 0, item))
+    fail(item, "is dropped although older ones should be");
 }
 
 /// It left its queue to be given up.
 void PortChecker::drop_pending() {
   if (!pending_) return;
   fail(pending_->item, "left its queue without a start or a drop");
-  tell_credit(pending_->q);
+  report_credit(pending_->q);
   pending_.reset();
 }
 
@@ -264,11 +306,12 @@ bool PortChecker::dropped(models::FrameIndex handle, models::DropReason reason) 
     if (reason == models::DropReason::queue_frames || reason == models::DropReason::queue_octets) {
       const auto [item, q] = *pending_;
       if (displacing_ && displacing_->q != q) check_displacing();
-      if (!config_.queue_limits[q].drops_oldest) fail(item, "is dropped although it is not the newest of class " + std::to_string(q));
+      if (!config_.queue_limits[q].drops_oldest)
+        fail(item, "is dropped although it is not the newest of class " + std::to_string(q));
       displacing_ = Displaced{item, q};
       displaced_ = models::with(displaced_, q);
     }
-    tell_credit(pending_->q);
+    report_credit(pending_->q);
     pending_.reset();
     return true;
   }
@@ -309,12 +352,15 @@ void PortChecker::resumed(const SeenFrame& seen, models::TransmissionDetail deta
     fail(item, "goes on although it has not been cut");
     return;
   }
-  if (detail.octets != rest_->remaining) fail(item, "goes on with " + std::to_string(detail.octets) + " octets instead of " + std::to_string(rest_->remaining));
+  if (detail.octets != rest_->remaining)
+    fail(item,
+         "goes on with " + std::to_string(detail.octets) + " octets instead of " + std::to_string(rest_->remaining));
   Fragment fragment = *rest_;
   rest_.reset();
   check_start(item, fragment.q, fragment.remaining);
   for (TrafficClass p = 0; p < traffic_class_count; ++p)
-    if (!is_preemptable(p) && !queues_[p].empty() && is_ready(p, queues_[p].front())) fail(item, "goes on although an express frame of class " + std::to_string(p) + " is ready");
+    if (!is_preemptable(p) && !queues_[p].empty() && is_ready(p, queues_[p].front()))
+      fail(item, "goes on although an express frame of class " + std::to_string(p) + " is ready");
   fragment.start = now_;
   transmit(fragment);
 }
@@ -325,7 +371,8 @@ void PortChecker::end() {
   check_turn();
   if (cut_wants_reason_) {
     bool express_waits = hold_at(now_, gates_).asked || !up_;
-    for (TrafficClass q = 0; q < traffic_class_count; ++q) express_waits = express_waits || (!is_preemptable(q) && !queues_[q].empty());
+    for (TrafficClass q = 0; q < traffic_class_count; ++q)
+      express_waits = express_waits || (!is_preemptable(q) && !queues_[q].empty());
     if (!express_waits) fail("a frame is cut although no express frame waits and the MAC does not hold");
     cut_wants_reason_ = false;
   }

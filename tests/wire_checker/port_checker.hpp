@@ -1,6 +1,8 @@
-// One direction of a link as the rules see it: what may start, when, for how long. Fed with the trace records of its port.
+// SPDX-License-Identifier: Apache-2.0
+// One direction of a link as the rules see it: what may start, when, for how long. Fed with the trace records of its
+// port.
 //
-// Within an instant: begin(), changes of the script, settle_gates(), the records in their order, end().
+// Within an instant: begin(), changes of the script, advance_gates(), the records in their order, end().
 #pragma once
 
 #include <array>
@@ -21,7 +23,7 @@ namespace takt::wire_checker {
 struct SeenFrame {
   models::FrameIndex handle;
   models::Frame frame;
-  Ps eligible = long_ago;   ///< counts in timed classes
+  Ps eligible = long_ago;       ///< counts in timed classes
   bool is_cut_through = false;  ///< only its header has come
 };
 
@@ -29,13 +31,13 @@ class PortChecker {
  public:
   PortChecker(std::string name, const models::PortConfig& config, sim::DataRate rate, Violations& violations);
 
-  // The script, between begin() and settle_gates().
+  // The script, between begin() and advance_gates().
   void request_gates(const ListConfig& gates);
   void force_gate(models::TrafficClass q, std::optional<bool> open);
   void set_up(bool up) { up_ = up; }
 
   void begin(Ps now);
-  void settle_gates();
+  void advance_gates();
   void started(const SeenFrame& seen, models::TransmissionDetail detail);
   void enqueued(const SeenFrame& seen, models::TrafficClass q);
   void dequeued(const SeenFrame& seen, models::TrafficClass q);
@@ -53,7 +55,9 @@ class PortChecker {
 
   Ps octet_time() const { return octet_; }
   Ps last_bit() const { return last_bit_; }
-  bool is_preemptable(models::TrafficClass q) const { return config_.preemption && models::contains(config_.preemption->preemptable, q); }
+  bool is_preemptable(models::TrafficClass q) const {
+    return config_.preemption && models::contains(config_.preemption->preemptable, q);
+  }
   const models::PortConfig& config() const { return config_; }
   const std::string& name() const { return name_; }
   bool has_rest_of(models::FrameIndex handle) const { return rest_ && rest_->item.handle == handle; }
@@ -85,37 +89,41 @@ class PortChecker {
     bool asked = false;
     Ps until = never;
   };
-  struct Pending {                // left its queue; the next record says why
+  struct Pending {  // left its queue; the next record says why
     Item item;
     models::TrafficClass q = 0;
   };
-  struct Displaced {              // the last one of those that a frame has pushed out
+  struct Displaced {  // the last one of those that a frame has pushed out
     Item item;
     models::TrafficClass q = 0;
   };
 
   Item item_of(const SeenFrame& seen) const;
-  std::optional<models::DropReason> why_no_room(models::TrafficClass q, std::uint64_t frames, std::uint64_t octets, const Item& item) const;
+  std::optional<models::DropReason> why_no_room(models::TrafficClass q, std::uint64_t frames, std::uint64_t octets,
+                                                const Item& item) const;
   void check_displacing();
   void note_gates(const ListConfig& gates);
   models::TrafficClass class_of(const models::Frame& frame) const;
   bool is_timed(models::TrafficClass q) const { return config_.shaping.is_timed(q); }
   Ps duration_of(std::uint32_t octets) const { return octet_ * (models::preamble_and_sfd.count + Ps{octets}); }
   bool is_shared(models::TrafficClass q) const { return config_.shaping.is_shared(q); }
-  /// Express frames come before preemptable ones, and classes that share bandwidth behind all others. Among these nobody comes first.
+  /// Express frames come before preemptable ones, and classes that share bandwidth behind all others. Among these
+  /// nobody comes first.
   bool comes_before(models::TrafficClass p, models::TrafficClass q) const {
     if (is_preemptable(p) != is_preemptable(q)) return !is_preemptable(p);
     return !is_shared(p) && (is_shared(q) || p > q);
   }
   void fail(const std::string& what) { violations_.add(now_, name_, what); }
-  void fail(const Item& item, const std::string& what) { fail(wire_checker::name_of(item.stream, item.sequence) + " " + what); }
+  void fail(const Item& item, const std::string& what) {
+    fail(wire_checker::name_of(item.stream, item.sequence) + " " + what);
+  }
   void check_start(const Item& item, models::TrafficClass q, std::uint32_t octets);
   void check_nobody_is_passed_over(const Item& item, models::TrafficClass q);
   void check_nobody_else_may_start(const Item& item);
   void transmit(const Fragment& fragment);
   void note_turn(const Item& item, models::TrafficClass q);
   void check_turn();
-  void tell_credit(models::TrafficClass q);
+  void report_credit(models::TrafficClass q);
   void drop_pending();
   void check_credits();
 
@@ -147,10 +155,10 @@ class PortChecker {
   std::array<std::optional<bool>, models::traffic_class_count> forced_{};
   std::array<std::optional<CreditAccount>, models::traffic_class_count> credits_;
   ShareAccount shares_;
-  std::optional<ShareAccount::PerClass> turn_;   // at this instant a class with a share has started: what could have
-  bool somebody_dropped_ = false;                // at this instant
-  models::ClassSet displaced_ = 0;               // at this instant: classes that have lost their first frame to one that came
-  std::optional<Displaced> displacing_;          // the frame that comes next is to blame
+  std::optional<ShareAccount::PerClass> turn_;  // at this instant a class with a share has started: what could have
+  bool somebody_dropped_ = false;               // at this instant
+  models::ClassSet displaced_ = 0;       // at this instant: classes that have lost their first frame to one that came
+  std::optional<Displaced> displacing_;  // the frame that comes next is to blame
   std::array<Ps, models::traffic_class_count> longest_occupation_{};
   std::uint8_t classes_seen_ = 0;
   std::array<std::vector<Item>, models::traffic_class_count> queues_;
@@ -159,11 +167,11 @@ class PortChecker {
   Ps now_ = 0;
   Ps free_at_ = 0;
   Ps last_bit_ = 0;
-  Ps due_ = never;                            // when something must happen, and what is wrong if it does not
+  Ps due_ = never;  // when something must happen, and what is wrong if it does not
   const char* due_text_ = "";
   bool up_ = true;
   bool cut_wants_reason_ = false;
-  std::optional<Fragment> under_way_;         // the last transmission, if its frame is preemptable
+  std::optional<Fragment> under_way_;  // the last transmission, if its frame is preemptable
   std::optional<Fragment> rest_;
   std::optional<Pending> pending_;
   std::optional<models::TrafficClass> started_class_;  // at this instant

@@ -1,14 +1,18 @@
-// When a frame that waits may start, and when one under way must be cut: what PortChecker derives from the configuration.
+// SPDX-License-Identifier: Apache-2.0
+// When a frame that waits may start, and when one under way must be cut: what PortChecker derives from the
+// configuration.
 #include <algorithm>
 
 #include "tests/wire_checker/port_checker.hpp"
 
 namespace takt::wire_checker {
 
-using models::TrafficClass;
 using models::traffic_class_count;
+using models::TrafficClass;
 
-bool PortChecker::gate_open(TrafficClass q, const ListMachine& gates) const { return forced_[q].value_or(gates.is_open(q)); }
+bool PortChecker::gate_open(TrafficClass q, const ListMachine& gates) const {
+  return forced_[q].value_or(gates.is_open(q));
+}
 
 /// The earliest instant at or after `from` at which gate q is open for so long; never if the lists show none.
 Ps PortChecker::fit(TrafficClass q, Ps from, Ps duration, ListMachine gates) const {
@@ -48,8 +52,8 @@ Ps PortChecker::ready_time(TrafficClass q, Ps from, Ps eligible, Ps duration) co
   return ready_time(q, from, eligible, duration, outlook);
 }
 
-/// The same; `outlook` comes along, for whoever asks again for later. Where the gate is open for a little in each cycle, a slow account
-/// needs thousands of cycles, so they are gone through once.
+/// The same; `outlook` comes along, for whoever asks again for later. Where the gate is open for a little in each
+/// cycle, a slow account needs thousands of cycles, so they are gone through once.
 Ps PortChecker::ready_time(TrafficClass q, Ps from, Ps eligible, Ps duration, Outlook& outlook) const {
   Ps time = is_timed(q) ? std::max(from, eligible) : from;
   for (int attempt = 0; attempt < 1000; ++attempt) {
@@ -69,8 +73,8 @@ bool PortChecker::is_ready(TrafficClass q, const Item& item) const {
   return !is_preemptable(q) || (!rest_ && !hold_at(now_, gates_).asked);
 }
 
-/// Whether the MAC is asked to hold at `time`, and until when that stays so. A release that comes in advance of the whole time of a hold
-/// leaves nothing of it.
+/// Whether the MAC is asked to hold at `time`, and until when that stays so. A release that comes in advance of the
+/// whole time of a hold leaves nothing of it.
 PortChecker::HoldState PortChecker::hold_at(Ps time, ListMachine gates) const {
   if (!may_hold_ || !config_.preemption) return {};
   const Ps release_advance = config_.preemption->release_advance.ps();
@@ -87,7 +91,8 @@ PortChecker::HoldState PortChecker::hold_at(Ps time, ListMachine gates) const {
       asked_from = next - hold_advance_;
     } else {
       const Ps released = next - release_advance;
-      if (asked_from < released && time < released) return {asked_from <= time, asked_from <= time ? released : asked_from};
+      if (asked_from < released && time < released)
+        return {asked_from <= time, asked_from <= time ? released : asked_from};
       asked_from = never;
     }
   }
@@ -105,7 +110,8 @@ Ps PortChecker::idle_due(Ps from) const {
       if (time == never) return never;
       const HoldState hold = hold_at(time, outlook.gates);
       if (!hold.asked) return time;
-      if (hold.until == never || (!outlook.credit && hold.until > horizon)) return never;  // holds that join for a whole cycle join for ever
+      if (hold.until == never || (!outlook.credit && hold.until > horizon))
+        return never;  // holds that join for a whole cycle join for ever
       time = hold.until;
     }
     return never;
@@ -123,10 +129,11 @@ Ps PortChecker::idle_due(Ps from) const {
   return due;
 }
 
-/// The data of the fragment under way if it is cut as early as possible, the decision being taken at `time`; nothing if the frame
-/// has to go on to its end.
+/// The data of the fragment under way if it is cut as early as possible, the decision being taken at `time`; nothing if
+/// the frame has to go on to its end.
 std::optional<std::uint32_t> PortChecker::cut_after(Ps time) const {
-  const Ps begun = (time - under_way_->start + octet_ - 1) / octet_ - 8;  // octets of the frame that are out or under way
+  const Ps begun =
+      (time - under_way_->start + octet_ - 1) / octet_ - 8;  // octets of the frame that are out or under way
   const Ps least = 64 * (1 + Ps{config_.preemption->add_frag_size.value()}) - 4;
   const Ps data = std::max(begun, least);
   if (Ps{under_way_->remaining} - data < 64) return std::nullopt;
@@ -140,7 +147,8 @@ Ps PortChecker::cut_due() const {
   const auto consider = [&](Ps time) {
     if (time < last_bit_ && cut_after(time)) due = std::min(due, time);
   };
-  if (const HoldState hold = hold_at(now_, gates_); hold.asked || hold.until != never) consider(hold.asked ? now_ : hold.until);
+  if (const HoldState hold = hold_at(now_, gates_); hold.asked || hold.until != never)
+    consider(hold.asked ? now_ : hold.until);
   for (TrafficClass q = 0; q < traffic_class_count; ++q) {
     if (is_preemptable(q) || queues_[q].empty()) continue;
     const Item& head = queues_[q].front();

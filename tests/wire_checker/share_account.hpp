@@ -1,4 +1,6 @@
-// Whose turn it is among classes that share bandwidth (ETS), counted along what is seen on the wire: deficit round robin, visit by visit.
+// SPDX-License-Identifier: Apache-2.0
+// Whose turn it is among classes that share bandwidth (ETS), counted along what is seen on the wire: deficit round
+// robin, visit by visit.
 #pragma once
 
 #include <array>
@@ -14,12 +16,14 @@ class ShareAccount {
 
   explicit ShareAccount(const models::ShapingConfig& config) {
     for (std::size_t q = 0; q < percent_.size(); ++q)
-      if (const auto* const share = std::get_if<models::EnhancedTransmissionSelection>(&config.selection[q])) percent_[q] = share->bandwidth;
+      if (const auto* const share = std::get_if<models::EnhancedTransmissionSelection>(&config.selection[q]))
+        percent_[q] = share->bandwidth;
   }
 
-  /// Who sends next: `heads` are the octets that the first frame of each class takes on the medium, 0 of those that cannot start.
+  /// Who sends next: `heads` are the octets that the first frame of each class takes on the medium, 0 of those that
+  /// cannot start.
   models::TrafficClass next(const PerClass& heads) {
-    bool goes_on = true;   // whoever was visited last
+    bool goes_on = true;  // whoever was visited last
     for (;; goes_on = false, turn_ = turn_ == 0 ? heads.size() - 1 : turn_ - 1) {
       if (heads[turn_] == 0) continue;
       if (!goes_on) left_[turn_] += percent_[turn_];

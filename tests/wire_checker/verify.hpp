@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All that must hold of a run of a resolved scenario, in one word.
 #pragma once
 
@@ -14,8 +15,8 @@ inline std::uint64_t digest_of(const scenario::Resolved& resolved, std::uint64_t
   return run.simulation().digest().value();
 }
 
-/// What is wrong; "" if nothing is: the wire checker finds nothing, the accounts agree, nothing leaks, and the digest is the same
-/// without a recorder and whatever the order of equal events.
+/// What is wrong; "" if nothing is: the wire checker finds nothing, the accounts agree, nothing leaks, and the digest
+/// is the same without a recorder and whatever the order of equal events.
 inline std::string verify(const scenario::Resolved& resolved) {
   try {
     CheckedRun checked(resolved);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the checker finds: texts with time, place and frame.
 #pragma once
 

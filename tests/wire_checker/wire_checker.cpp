@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/wire_checker/wire_checker.hpp"
 
 #include "tests/wire_checker/wire_checker_parts.hpp"
@@ -7,8 +8,13 @@ namespace takt::wire_checker {
 using models::DropReason;
 using models::Occurrence;
 
-WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> changes, const Directory& directory, FrameLookup frame_of)
-    : plan_(plan), changes_(std::move(changes)), frame_of_(std::move(frame_of)), direction_of_port_(plan.nodes.size()), reasons_down_(plan.links.size(), 0),
+WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> changes, const Directory& directory,
+                         FrameLookup frame_of)
+    : plan_(plan),
+      changes_(std::move(changes)),
+      frame_of_(std::move(frame_of)),
+      direction_of_port_(plan.nodes.size()),
+      reasons_down_(plan.links.size(), 0),
       accounts_(plan.streams.size()) {
   for (std::size_t n = 0; n < plan.nodes.size(); ++n) {
     const models::NodePlan& node = plan.nodes[n];
@@ -17,15 +23,20 @@ WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> ch
     made->is_end_station = node.is_end_station();
     made->forwards = node.forwards();
     const sim::Distribution& receive = plan.os_latencies[node.os_latency].receive;
-    made->fixed_delay = made->forwards ? node.forwarding_delay.ps() : receive.is_constant() && !(node.cpu && node.cpu->receive) ? receive.greatest().ps() : 0;
+    made->fixed_delay = made->forwards                                              ? node.forwarding_delay.ps()
+                        : receive.is_constant() && !(node.cpu && node.cpu->receive) ? receive.greatest().ps()
+                                                                                    : 0;
     if (node.forwarding_jitter) {
       made->least_jitter = node.forwarding_jitter->least().ps();
       made->greatest_jitter = node.forwarding_jitter->greatest().ps();
     }
-    if (node.ingress) made->ingress = std::make_unique<IngressOracle>(plan.ingress_configs[*node.ingress], static_cast<std::uint32_t>(plan.nodes.size()));
+    if (node.ingress)
+      made->ingress = std::make_unique<IngressOracle>(plan.ingress_configs[*node.ingress],
+                                                      static_cast<std::uint32_t>(plan.nodes.size()));
     nodes_.push_back(std::move(made));
   }
-  for (const models::HostRecoveryPlan& recovery : plan.host_recoveries) nodes_[recovery.host.value]->recoveries[recovery.stream.value] = &recovery.recovery;
+  for (const models::HostRecoveryPlan& recovery : plan.host_recoveries)
+    nodes_[recovery.host.value]->recoveries[recovery.stream.value] = &recovery.recovery;
   for (const models::LinkPlan& link : plan.links) {
     connect(link, link.a, link.b);
     connect(link, link.b, link.a);
@@ -38,7 +49,8 @@ WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> ch
   announce_cut_through();
   // Which of two copies a bridge has cut through can't be told from outside, and then not what its buckets hold.
   for (const std::unique_ptr<Direction>& direction : directions_)
-    if (direction->duplicates && (direction->noticed != 0 || nodes_[direction->to]->greatest_jitter > 0)) nodes_[direction->to]->ingress.reset();
+    if (direction->duplicates && (direction->noticed != 0 || nodes_[direction->to]->greatest_jitter > 0))
+      nodes_[direction->to]->ingress.reset();
   const auto place_of = [&](sim::ComponentId component) -> Place& {
     if (places_.size() <= component.index) places_.resize(component.index + std::size_t{1});
     return places_[component.index];
@@ -54,19 +66,24 @@ WireChecker::WireChecker(const models::NetworkPlan& plan, std::vector<Change> ch
 
 WireChecker::~WireChecker() = default;
 
-void WireChecker::connect(const models::LinkPlan& link, const models::LinkPlan::End& from, const models::LinkPlan::End& to) {
-  const models::PortConfig& config = plan_.port_configs[from.port_config.value_or(plan_.nodes[from.node.value].port_config)];
-  const std::string name = plan_.nodes[from.node.value].name + ":" + std::to_string(from.port) + " to " + plan_.nodes[to.node.value].name;
+void WireChecker::connect(const models::LinkPlan& link, const models::LinkPlan::End& from,
+                          const models::LinkPlan::End& to) {
+  const models::PortConfig& config =
+      plan_.port_configs[from.port_config.value_or(plan_.nodes[from.node.value].port_config)];
+  const std::string name =
+      plan_.nodes[from.node.value].name + ":" + std::to_string(from.port) + " to " + plan_.nodes[to.node.value].name;
   const Ps delay = link.delay.ps() + nodes_[to.node.value]->fixed_delay;
   const auto link_index = static_cast<std::uint32_t>(&link - plan_.links.data());
   std::vector<std::uint32_t>& ports = direction_of_port_[from.node.value];
   if (ports.size() <= from.port) ports.resize(from.port + std::size_t{1}, no_direction);
   ports[from.port] = static_cast<std::uint32_t>(directions_.size());
-  directions_.push_back(std::make_unique<Direction>(
-      Direction{PortChecker(name, config, link.rate, violations_), link_index, from.node.value, to.node.value, to.port, delay, 0, 0, false}));
+  directions_.push_back(
+      std::make_unique<Direction>(Direction{PortChecker(name, config, link.rate, violations_), link_index,
+                                            from.node.value, to.node.value, to.port, delay, 0, 0, false}));
 }
 
-/// Which priorities' headers a bridge looks at: those that another port of it cuts through, and no port of it sends by eligibility times.
+/// Which priorities' headers a bridge looks at: those that another port of it cuts through, and no port of it sends by
+/// eligibility times.
 void WireChecker::announce_cut_through() {
   for (const std::unique_ptr<Direction>& incoming : directions_) {
     if (!nodes_[incoming->to]->forwards) continue;
@@ -119,19 +136,24 @@ void WireChecker::instant(Ps now) {
   if (!batch_.empty() && batch_time_ == now) batch.swap(batch_);
   std::set<std::uint32_t> touched;
   for (const Recorded& recorded : batch)
-    if (const std::uint32_t where = recorded.record.where.index; where < places_.size() && places_[where].direction != 0xFFFF'FFFF) touched.insert(places_[where].direction);
+    if (const std::uint32_t where = recorded.record.where.index;
+        where < places_.size() && places_[where].direction != 0xFFFF'FFFF)
+      touched.insert(places_[where].direction);
   const std::set<std::uint32_t> cutting = ports_with_headers(now);
   touched.insert(cutting.begin(), cutting.end());
   const std::size_t first_change = next_change_;
   while (next_change_ < changes_.size() && changes_[next_change_].at <= now) ++next_change_;
   for (std::size_t c = first_change; c < next_change_; ++c) {
-    if (const auto* const gates = std::get_if<Change::Gates>(&changes_[c].what)) touched.insert(direction_of_port_[gates->node.value][gates->port]);
-    if (const auto* const stuck = std::get_if<Change::StuckGate>(&changes_[c].what)) touched.insert(direction_of_port_[stuck->node.value][stuck->port]);
-    if (const auto* const link = std::get_if<Change::LinkState>(&changes_[c].what)) touched.insert({link->link * 2, link->link * 2 + 1});
+    if (const auto* const gates = std::get_if<Change::Gates>(&changes_[c].what))
+      touched.insert(direction_of_port_[gates->node.value][gates->port]);
+    if (const auto* const stuck = std::get_if<Change::StuckGate>(&changes_[c].what))
+      touched.insert(direction_of_port_[stuck->node.value][stuck->port]);
+    if (const auto* const link = std::get_if<Change::LinkState>(&changes_[c].what))
+      touched.insert({link->link * 2, link->link * 2 + 1});
   }
   for (const std::uint32_t direction : touched) directions_[direction]->checker.begin(now);
   for (std::size_t c = first_change; c < next_change_; ++c) apply(changes_[c]);
-  for (const std::uint32_t direction : touched) directions_[direction]->checker.settle_gates();
+  for (const std::uint32_t direction : touched) directions_[direction]->checker.advance_gates();
 
   attribute(now, batch);
   for (const Recorded& recorded : batch) feed(recorded);
@@ -147,7 +169,8 @@ std::set<std::uint32_t> WireChecker::ports_with_headers(Ps now) const {
     const auto is_header = [&](const Arrival& arrival) { return arrival.looked_at == now && arrival.complete > now; };
     if (!node.forwards || std::ranges::none_of(node.arrivals, is_header)) continue;
     for (const std::uint32_t direction : direction_of_port_[wake->second])
-      if (direction != no_direction && directions_[direction]->checker.config().cut_through != 0) ports.insert(direction);
+      if (direction != no_direction && directions_[direction]->checker.config().cut_through != 0)
+        ports.insert(direction);
   }
   return ports;
 }
@@ -191,13 +214,16 @@ bool WireChecker::is_cut_through(const Direction& direction, const Recorded& rec
 
 void WireChecker::apply(const Change& change) {
   if (const auto* const gates = std::get_if<Change::Gates>(&change.what))
-    directions_[direction_of_port_[gates->node.value][gates->port]]->checker.request_gates(list_config_of(gates->gates));
+    directions_[direction_of_port_[gates->node.value][gates->port]]->checker.request_gates(
+        list_config_of(gates->gates));
   if (const auto* const stuck = std::get_if<Change::StuckGate>(&change.what))
-    directions_[direction_of_port_[stuck->node.value][stuck->port]]->checker.force_gate(stuck->traffic_class, stuck->open);
+    directions_[direction_of_port_[stuck->node.value][stuck->port]]->checker.force_gate(stuck->traffic_class,
+                                                                                        stuck->open);
   if (const auto* const link = std::get_if<Change::LinkState>(&change.what)) {
     std::uint32_t& reasons = reasons_down_[link->link];
     reasons += link->up ? -1u : 1u;
-    for (const std::uint32_t direction : {link->link * 2, link->link * 2 + 1}) directions_[direction]->checker.set_up(reasons == 0);
+    for (const std::uint32_t direction : {link->link * 2, link->link * 2 + 1})
+      directions_[direction]->checker.set_up(reasons == 0);
   }
 }
 
@@ -229,15 +255,17 @@ void WireChecker::feed(const Recorded& recorded) {
       break;
     case Occurrence::cut:
       direction.checker.cut(seen, detail);
-      take_back(index, seen.handle, now);
+      remove(index, seen.handle, now);
       break;
     case Occurrence::resumed:
       direction.checker.resumed(seen, detail);
       send(index, recorded, detail.octets);
       break;
     case Occurrence::drop:
-      if (recorded.is_of_queue) direction.checker.dropped(seen.handle, static_cast<DropReason>(record.detail));
-      else direction.checker.refused(seen, static_cast<DropReason>(record.detail));
+      if (recorded.is_of_queue)
+        direction.checker.dropped(seen.handle, static_cast<DropReason>(record.detail));
+      else
+        direction.checker.refused(seen, static_cast<DropReason>(record.detail));
       break;
     default:
       break;
@@ -261,16 +289,21 @@ void WireChecker::send(std::uint32_t index, const Recorded& recorded, std::uint3
   arrival.greatest_jitter = nodes_[direction.to]->greatest_jitter;
   const auto q = models::TransmissionDetail::unpack(recorded.record.detail).traffic_class;
   if ((direction.noticed >> frame.priority & 1) != 0 && !direction.checker.is_preemptable(q))
-    arrival.looked_at = std::min(arrival.complete, now + octet * (direction.header + (frame.tagged ? models::vlan_tag.count : 0) + (frame.r_tagged ? models::r_tag.count : 0)) + direction.delay);
+    arrival.looked_at =
+        std::min(arrival.complete, now +
+                                       octet * (direction.header + (frame.tagged ? models::vlan_tag.count : 0) +
+                                                (frame.r_tagged ? models::r_tag.count : 0)) +
+                                       direction.delay);
   nodes_[direction.to]->arrivals.push_back(arrival);
   wakes_.insert({arrival.looked_at, direction.to});
   wakes_.insert({arrival.complete, direction.to});
   wakes_.insert({arrival.latest(), direction.to});
 }
 
-void WireChecker::take_back(std::uint32_t index, models::FrameIndex handle, Ps now) {
-  std::erase_if(nodes_[directions_[index]->to]->arrivals,
-                [&](const Arrival& arrival) { return arrival.handle == handle && arrival.direction == index && arrival.complete > now; });
+void WireChecker::remove(std::uint32_t index, models::FrameIndex handle, Ps now) {
+  std::erase_if(nodes_[directions_[index]->to]->arrivals, [&](const Arrival& arrival) {
+    return arrival.handle == handle && arrival.direction == index && arrival.complete > now;
+  });
 }
 
 void WireChecker::finish(Ps end) {
@@ -288,24 +321,34 @@ void WireChecker::compare(std::span<const models::Stream> streams, bool hosts_ho
   bool has_latencies = hosts_hold;
   bool cuts_through = false;
   for (const models::NodePlan& node : plan_.nodes)
-    has_latencies |= node.cpu != nullptr || (node.kind == models::NodeKind::station && plan_.os_latencies[node.os_latency].receive.greatest() != sim::Duration());
-  const bool has_jitter = std::ranges::any_of(plan_.nodes, [](const models::NodePlan& node) { return node.forwarding_jitter != nullptr; });   // which of several copies is in a switch can't be told
+    has_latencies |= node.cpu != nullptr || (node.kind == models::NodeKind::station &&
+                                             plan_.os_latencies[node.os_latency].receive.greatest() != sim::Duration());
+  const bool has_jitter = std::ranges::any_of(plan_.nodes, [](const models::NodePlan& node) {
+    return node.forwarding_jitter != nullptr;
+  });  // which of several copies is in a switch can't be told
   for (const models::OsLatency& latency : plan_.os_latencies)
-    has_latencies |= !latency.receive.is_constant() || !latency.transmit.is_constant() || latency.transmit.greatest() != sim::Duration();
+    has_latencies |= !latency.receive.is_constant() || !latency.transmit.is_constant() ||
+                     latency.transmit.greatest() != sim::Duration();
   for (const models::PortConfig& config : plan_.port_configs) cuts_through |= config.cut_through != 0;
   for (std::size_t s = 0; s < streams.size(); ++s) {
     const StreamAccount& mine = accounts_[s];
     const models::Stream& theirs = streams[s];
     const auto differ = [&](const std::string& what, std::uint64_t seen, std::uint64_t counted) {
-      violations_.add(batch_time_, "stream " + theirs.name, what + ": " + std::to_string(seen) + " on the wire, " + std::to_string(counted) + " counted");
+      violations_.add(batch_time_, "stream " + theirs.name,
+                      what + ": " + std::to_string(seen) + " on the wire, " + std::to_string(counted) + " counted");
     };
     if (mine.produced != theirs.sent) differ("frames sent", mine.produced, theirs.sent);
     for (std::size_t reason = 0; reason < mine.dropped.size(); ++reason)
-      if (mine.dropped[reason] != theirs.dropped[reason]) differ(std::string("frames dropped for ") + name_of(static_cast<DropReason>(reason)), mine.dropped[reason], theirs.dropped[reason]);
-    if (theirs.delivered + theirs.dropped_in_all() > theirs.sent + theirs.copies) differ("more frames ended than there were", theirs.delivered + theirs.dropped_in_all(), theirs.sent + theirs.copies);
+      if (mine.dropped[reason] != theirs.dropped[reason])
+        differ(std::string("frames dropped for ") + name_of(static_cast<DropReason>(reason)), mine.dropped[reason],
+               theirs.dropped[reason]);
+    if (theirs.delivered + theirs.dropped_in_all() > theirs.sent + theirs.copies)
+      differ("more frames ended than there were", theirs.delivered + theirs.dropped_in_all(),
+             theirs.sent + theirs.copies);
     if (has_latencies || duplicates_) continue;
     if (mine.delivered != theirs.delivered) differ("frames delivered", mine.delivered, theirs.delivered);
-    if (!cuts_through && !has_jitter && mine.in_flight != theirs.in_flight()) differ("frames in flight", mine.in_flight, theirs.in_flight());
+    if (!cuts_through && !has_jitter && mine.in_flight != theirs.in_flight())
+      differ("frames in flight", mine.in_flight, theirs.in_flight());
   }
 }
 

@@ -1,5 +1,6 @@
-// Verifies a run from outside: a recorder that knows the configuration, the trace records and the frames that they name, and
-// nothing of the model's state. What it checks is listed in README.md.
+// SPDX-License-Identifier: Apache-2.0
+// Verifies a run from outside: a recorder that knows the configuration, the trace records and the frames that they
+// name, and nothing of the model's state. What it checks is listed in README.md.
 #pragma once
 
 #include <functional>
@@ -19,9 +20,21 @@ namespace takt::wire_checker {
 
 /// What the script and the faults of a scenario change while it runs.
 struct Change {
-  struct Gates { models::NodeIndex node; std::uint16_t port = 0; models::GateConfig gates; };
-  struct StuckGate { models::NodeIndex node; std::uint16_t port = 0; models::TrafficClass traffic_class = 0; std::optional<bool> open; };
-  struct LinkState { std::uint32_t link = 0; bool up = false; };
+  struct Gates {
+    models::NodeIndex node;
+    std::uint16_t port = 0;
+    models::GateConfig gates;
+  };
+  struct StuckGate {
+    models::NodeIndex node;
+    std::uint16_t port = 0;
+    models::TrafficClass traffic_class = 0;
+    std::optional<bool> open;
+  };
+  struct LinkState {
+    std::uint32_t link = 0;
+    bool up = false;
+  };
   struct Routes {};
   Ps at = 0;
   std::variant<Gates, StuckGate, LinkState, Routes> what;
@@ -29,8 +42,8 @@ struct Change {
 
 /// Which component of the simulation is which part of the plan.
 struct Directory {
-  std::vector<std::vector<sim::ComponentId>> nodes;           ///< by node: its bridge, its host
-  std::vector<std::vector<sim::ComponentId>> ports;           ///< by node and port
+  std::vector<std::vector<sim::ComponentId>> nodes;  ///< by node: its bridge, its host
+  std::vector<std::vector<sim::ComponentId>> ports;  ///< by node and port
 };
 
 using FrameLookup = std::function<const models::Frame&(models::FrameIndex)>;
@@ -39,14 +52,15 @@ using FrameLookup = std::function<const models::Frame&(models::FrameIndex)>;
 struct StreamAccount {
   std::uint64_t produced = 0;
   std::uint64_t delivered = 0;
-  std::uint64_t in_flight = 0;                                ///< on links and in queues, at the end
+  std::uint64_t in_flight = 0;  ///< on links and in queues, at the end
   std::array<std::uint64_t, static_cast<std::size_t>(models::DropReason::count)> dropped{};
 };
 
 class WireChecker final : public sim::TraceSink {
  public:
   /// `plan` outlives the checker; `changes` are in the order of their times.
-  WireChecker(const models::NetworkPlan& plan, std::vector<Change> changes, const Directory& directory, FrameLookup frame_of);
+  WireChecker(const models::NetworkPlan& plan, std::vector<Change> changes, const Directory& directory,
+              FrameLookup frame_of);
   ~WireChecker() override;
   WireChecker(const WireChecker&) = delete;
   WireChecker& operator=(const WireChecker&) = delete;
@@ -54,7 +68,8 @@ class WireChecker final : public sim::TraceSink {
   void record(const sim::TraceRecord& record) override;
   /// The run is over at `end`; everything up to and at it has been recorded.
   void finish(Ps end);
-  /// Compares the accounts with those that the model kept. `hosts_hold`: frames that were produced may be in hosts still, beside what their latencies do.
+  /// Compares the accounts with those that the model kept. `hosts_hold`: frames that were produced may be in hosts
+  /// still, beside what their latencies do.
   void compare(std::span<const models::Stream> streams, bool hosts_hold = false);
 
   const Violations& violations() const { return violations_; }
@@ -85,16 +100,17 @@ class WireChecker final : public sim::TraceSink {
   void attribute(Ps now, std::vector<Recorded>& batch);
   bool is_own(std::uint32_t node, models::StreamIndex stream, std::uint32_t direction) const;
   bool is_taken_in(std::uint32_t node, const Arrival& arrival) const;
-  void settle_host(std::uint32_t node, Ps now);
+  void finish_host_instant(std::uint32_t node, Ps now);
   void check_nobody_overtakes(std::uint32_t index, Ps now);
   void check_why_stored(std::uint32_t index, const Arrival& arrival, std::uint32_t direction, Ps now);
-  void settle_bridge(std::uint32_t node, Ps now);
+  void finish_bridge_instant(std::uint32_t node, Ps now);
   void run_ingress(std::uint32_t node, Ps now, std::vector<Arrival*>& arrived);
   void check_order(const Arrival& arrival, Ps now);
-  void check_at_most_once(const models::StreamRecoveryConfig& recovery, std::uint32_t node, const models::Frame& frame, Ps now);
+  void check_at_most_once(const models::StreamRecoveryConfig& recovery, std::uint32_t node, const models::Frame& frame,
+                          Ps now);
   void feed(const Recorded& recorded);
   void send(std::uint32_t index, const Recorded& recorded, std::uint32_t octets);
-  void take_back(std::uint32_t index, models::FrameIndex handle, Ps now);
+  void remove(std::uint32_t index, models::FrameIndex handle, Ps now);
   void forget_arrivals(std::uint32_t node, Ps now);
   bool order_is_kept(models::StreamIndex stream) const;
 
@@ -102,16 +118,17 @@ class WireChecker final : public sim::TraceSink {
   std::vector<Change> changes_;
   FrameLookup frame_of_;
   Violations violations_;
-  std::vector<Place> places_;                    // by component
+  std::vector<Place> places_;  // by component
   std::vector<std::unique_ptr<Direction>> directions_;
   static constexpr std::uint32_t no_direction = 0xFFFF'FFFF;
-  std::vector<std::vector<std::uint32_t>> direction_of_port_;  // by node and port; a number between those of others may have no link
+  std::vector<std::vector<std::uint32_t>>
+      direction_of_port_;  // by node and port; a number between those of others may have no link
   std::vector<std::unique_ptr<Node>> nodes_;
-  std::vector<std::uint32_t> reasons_down_;      // by link
+  std::vector<std::uint32_t> reasons_down_;  // by link
   std::size_t next_change_ = 0;
-  std::set<std::pair<Ps, std::uint32_t>> wakes_; // when something arrives at a node
+  std::set<std::pair<Ps, std::uint32_t>> wakes_;  // when something arrives at a node
   Ps batch_time_ = 0;
-  std::vector<Recorded> batch_;                  // the records of the present instant
+  std::vector<Recorded> batch_;  // the records of the present instant
   std::vector<StreamAccount> accounts_;
   std::set<std::uint32_t> handles_;
   std::uint64_t transmissions_ = 0;

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What it costs to build takt from nothing and after an edit, as a ratio to one fixed file compiled in the same run.
 
 Processors and compilers differ by machine (the same tree took 5 and 16 CPU minutes on two of them), the ratio does not.
@@ -14,8 +15,8 @@ REFERENCE = pathlib.Path(__file__).resolve().parent / "reference.cpp"
 # A build without a compiler cache, whatever the machine has.
 ENVIRONMENT = {**os.environ, "CCACHE_DISABLE": "1"}
 # After an edit of one of these: takt again.
-EDITS = ["src/analysis/bounds.cpp", "models/egress/egress_port.cpp", "src/cli/run_command.cpp",
-         "src/scenario/description/description.hpp"]
+EDITS = ["src/questions/analysis/bounds.cpp", "models/egress/egress_port.cpp", "src/frontends/cli/run_command.cpp",
+         "src/simulation/scenario/description/description.hpp"]
 
 
 def timed(command, folder):

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A DDS writer and a reader in memory, as a line of JSON for tools/bench.
 //
 //   takt_bench_dds best-effort|reliable OCTETS SAMPLES   CPU time of a sample that is written, sent, received and taken
@@ -39,7 +40,8 @@ int run(bool reliable, std::size_t octets, long samples) {
   dds::ReaderConfig reader_config;
   writer_config.topic = reader_config.topic = "topic";
   writer_config.type = reader_config.type = "Type";
-  writer_config.qos.reliability.kind = reader_config.qos.reliability.kind = reliable ? dds::ReliabilityKind::reliable : dds::ReliabilityKind::best_effort;
+  writer_config.qos.reliability.kind = reader_config.qos.reliability.kind =
+      reliable ? dds::ReliabilityKind::reliable : dds::ReliabilityKind::best_effort;
   writer_config.qos.history.kind = reader_config.qos.history.kind = dds::HistoryKind::keep_all;
   writer_config.qos.resource_limits.max_samples = 16;
   const dds::WriterHandle writer = *writing.create_writer(writer_config, now).handle;
@@ -59,7 +61,8 @@ int run(bool reliable, std::size_t octets, long samples) {
     while (reading.take(reader, now)) ++taken;
   }
   const double seconds = benchmark::cpu_seconds() - begin;
-  std::printf("{\"samples\": %ld, \"octets\": %zu, \"ns\": %.1f}\n", taken, octets, seconds / static_cast<double>(samples) * 1e9);
+  std::printf("{\"samples\": %ld, \"octets\": %zu, \"ns\": %.1f}\n", taken, octets,
+              seconds / static_cast<double>(samples) * 1e9);
   return taken == samples ? 0 : 1;
 }
 
@@ -67,7 +70,8 @@ int run(bool reliable, std::size_t octets, long samples) {
 
 int main(int argc, char** argv) {
   const std::string_view kind = argc > 1 ? argv[1] : "";
-  if (argc == 4 && (kind == "best-effort" || kind == "reliable")) return run(kind == "reliable", static_cast<std::size_t>(std::atol(argv[2])), std::atol(argv[3]));
+  if (argc == 4 && (kind == "best-effort" || kind == "reliable"))
+    return run(kind == "reliable", static_cast<std::size_t>(std::atol(argv[2])), std::atol(argv[3]));
   std::fputs("usage: takt_bench_dds best-effort|reliable OCTETS SAMPLES\n", stderr);
   return 2;
 }

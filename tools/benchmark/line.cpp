@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <string>
 #include <utility>
 
@@ -9,7 +10,7 @@
 namespace takt::benchmark {
 namespace {
 
-using namespace models;  // NOLINT
+using namespace models;         // NOLINT
 using namespace sim::literals;  // NOLINT
 
 NetworkPlan line_plan() {
@@ -23,7 +24,10 @@ NetworkPlan line_plan() {
     plan.nodes.push_back(node);
   }
   for (std::uint32_t n = 0; n < last; ++n)
-    plan.links.push_back({{NodeIndex{n}, static_cast<std::uint16_t>(n == 0 ? 0 : 1)}, {NodeIndex{n + 1}, 0}, sim::DataRate{1'000'000'000}, 50_ns});
+    plan.links.push_back({{NodeIndex{n}, static_cast<std::uint16_t>(n == 0 ? 0 : 1)},
+                          {NodeIndex{n + 1}, 0},
+                          sim::DataRate{1'000'000'000},
+                          50_ns});
   for (std::uint32_t n = 1; n < last; ++n) plan.filtering.push_back({NodeIndex{n}, 0, AddressIndex{last}, 1});
   const auto add_stream = [&](const char* name, Octets payload, sim::Duration period) {
     StreamPlan stream;
@@ -52,14 +56,16 @@ LineFigures run_line(double simulated_seconds, LineVariant variant) {
     gates.admin_cycle_time = entry_time * 8;
     // The frames are of class 1 (priority 0); the other gates take turns.
     for (int entry = 0; entry < 8; ++entry)
-      gates.admin_control_list.push_back({GateOperation::set_gate_states, static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), entry_time});
+      gates.admin_control_list.push_back({GateOperation::set_gate_states,
+                                          static_cast<GateStates>(entry == 7 ? 0xFC : 0x02 | 1u << entry), entry_time});
     plan.port_configs[0].shaping.gates = gates;
   }
   if (variant == LineVariant::gptp) {
     plan.gptp_stations.emplace_back();
     for (std::uint32_t n = 0; n < plan.nodes.size(); ++n) {
       plan.nodes[n].clock.emplace();
-      plan.nodes[n].clock->oscillator.offset = sim::FrequencyOffset{(static_cast<std::int64_t>(n * 37 % 100) - 50) * 1'000'000};
+      plan.nodes[n].clock->oscillator.offset =
+          sim::FrequencyOffset{(static_cast<std::int64_t>(n * 37 % 100) - 50) * 1'000'000};
       plan.nodes[n].clock->timestamps.granularity = 8_ns;
       plan.gptp.push_back(0u);
     }
@@ -100,7 +106,10 @@ PairFigures run_gptp_line(double simulated_seconds) {
     plan.gptp.push_back(0u);
   }
   for (std::uint32_t n = 0; n < hops; ++n)
-    plan.links.push_back({{NodeIndex{n}, static_cast<std::uint16_t>(n == 0 ? 0 : 1)}, {NodeIndex{n + 1}, 0}, sim::DataRate{1'000'000'000}, 100_ns});
+    plan.links.push_back({{NodeIndex{n}, static_cast<std::uint16_t>(n == 0 ? 0 : 1)},
+                          {NodeIndex{n + 1}, 0},
+                          sim::DataRate{1'000'000'000},
+                          100_ns});
   Network network(simulation, std::move(plan));
   network.start();
   PairFigures figures;

@@ -1,5 +1,7 @@
-// A plant: a grid of switches, ten hosts on each, one stream a host to a random other one. Beside it a bare loop of the same events, which knows nothing but
-// ports that send in turn and routes that were looked up before: what such a network could cost.
+// SPDX-License-Identifier: Apache-2.0
+// A plant: a grid of switches, ten hosts on each, one stream a host to a random other one. Beside it a bare loop of the
+// same events, which knows nothing but ports that send in turn and routes that were looked up before: what such a
+// network could cost.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -10,8 +12,8 @@
 #include <vector>
 
 #include "measure.hpp"
-#include "scenario/resolve/resolve.hpp"
-#include "scenario/run/divided_run.hpp"
+#include "scenario/resolve.hpp"
+#include "scenario/division/divided_run.hpp"
 #include "scenario/run/run.hpp"
 #include "workloads.hpp"
 
@@ -37,26 +39,28 @@ std::int64_t offset_ns(std::uint32_t host, bool spread) { return spread ? std::i
 std::string plant_text(unsigned side, bool spread, double simulated_seconds) {
   const std::uint32_t hosts = side * side * hosts_per_switch;
   const std::vector<std::uint32_t> to = listeners(hosts);
-  std::string text = R"({"name": "plant", "duration": ")" + std::to_string(static_cast<long long>(simulated_seconds * 1e6)) +
-                     R"(us", "network": {"generate": [{"topology": "mesh", "rows": )" + std::to_string(side) + R"(, "columns": )" + std::to_string(side) +
-                     R"(, "hosts_per_switch": )" + std::to_string(hosts_per_switch) +
-                     R"(, "rate": "10Gbps", "host_rate": "1Gbps", "length": "10m", "forwarding_delay": "1us"}]}, "streams": [)";
+  std::string text =
+      R"({"name": "plant", "duration": ")" + std::to_string(static_cast<long long>(simulated_seconds * 1e6)) +
+      R"(us", "network": {"generate": [{"topology": "mesh", "rows": )" + std::to_string(side) + R"(, "columns": )" +
+      std::to_string(side) + R"(, "hosts_per_switch": )" + std::to_string(hosts_per_switch) +
+      R"(, "rate": "10Gbps", "host_rate": "1Gbps", "length": "10m", "forwarding_delay": "1us"}]}, "streams": [)";
   for (std::uint32_t h = 0; h < hosts; ++h)
-    text += (h > 0 ? "," : "") + std::string(R"({"name": "s)") + std::to_string(h + 1) + R"(", "from": "h)" + std::to_string(h + 1) + R"(", "to": "h)" +
-            std::to_string(to[h] + 1) + R"(", "payload": "200B", "every": "1ms", "offset": ")" + std::to_string(offset_ns(h, spread)) + R"(ns"})";
+    text += (h > 0 ? "," : "") + std::string(R"({"name": "s)") + std::to_string(h + 1) + R"(", "from": "h)" +
+            std::to_string(h + 1) + R"(", "to": "h)" + std::to_string(to[h] + 1) +
+            R"(", "payload": "200B", "every": "1ms", "offset": ")" + std::to_string(offset_ns(h, spread)) + R"(ns"})";
   return text + "]}";
 }
 
 // The bare loop. Times are picoseconds.
 struct BareEvent {
   std::int64_t time;
-  std::uint32_t what;    // a port at whose far end a frame arrives; or a talker
-  std::uint32_t frame;   // no_frame: of a talker
+  std::uint32_t what;   // a port at whose far end a frame arrives; or a talker
+  std::uint32_t frame;  // no_frame: of a talker
 };
 constexpr std::uint32_t no_frame = 0xFFFF'FFFF;
 
-/// Buckets of 256 ns, a ring of them. Nothing arrives sooner than a frame's length, the cable and the forwarding after it was sent, which is longer: a
-/// bucket gets nothing while it is worked on, and can be sorted once.
+/// Buckets of 256 ns, a ring of them. Nothing arrives sooner than a frame's length, the cable and the forwarding after
+/// it was sent, which is longer: a bucket gets nothing while it is worked on, and can be sorted once.
 class Ring {
  public:
   static constexpr std::int64_t width = 256'000;
@@ -70,9 +74,13 @@ class Ring {
 
 class BarePlant {
  public:
-  BarePlant(unsigned side, bool spread) : side_(side), hosts_(side * side * hosts_per_switch), ports_(std::size_t{side} * side * ports_of_switch + hosts_) {
+  BarePlant(unsigned side, bool spread)
+      : side_(side),
+        hosts_(side * side * hosts_per_switch),
+        ports_(std::size_t{side} * side * ports_of_switch + hosts_) {
     for (std::uint32_t s = 0; s < side * side; ++s)
-      for (std::uint32_t direction = 0; direction < 4; ++direction) ports_[s * ports_of_switch + direction].octet_ps = 800;
+      for (std::uint32_t direction = 0; direction < 4; ++direction)
+        ports_[s * ports_of_switch + direction].octet_ps = 800;
     const std::vector<std::uint32_t> to = listeners(hosts_);
     for (std::uint32_t h = 0; h < hosts_; ++h) {
       add_route(h, to[h]);
@@ -85,7 +93,9 @@ class BarePlant {
     std::vector<BareEvent> now;
     for (std::int64_t at = 0; at < end; at += Ring::width) {
       now.swap(ring_.at(at));
-      std::sort(now.begin(), now.end(), [](const BareEvent& a, const BareEvent& b) { return a.time != b.time ? a.time < b.time : a.what < b.what; });
+      std::sort(now.begin(), now.end(), [](const BareEvent& a, const BareEvent& b) {
+        return a.time != b.time ? a.time < b.time : a.what < b.what;
+      });
       for (std::size_t i = 0; i < now.size(); ++i) {
         look_ahead(now, i);
         take(now[i]);
@@ -96,7 +106,7 @@ class BarePlant {
   }
 
  private:
-  static constexpr std::uint32_t ports_of_switch = 4 + hosts_per_switch;   // east, west, south, north, hosts
+  static constexpr std::uint32_t ports_of_switch = 4 + hosts_per_switch;  // east, west, south, north, hosts
   struct Port {
     std::int64_t free_at = 0;
     std::uint32_t octet_ps = 8000;
@@ -128,9 +138,12 @@ class BarePlant {
   }
 
   void look_ahead(const std::vector<BareEvent>& now, std::size_t i) const {
-    const auto frame_at = [&](std::size_t ahead) { return i + ahead < now.size() && now[i + ahead].frame != no_frame ? &frames_[now[i + ahead].frame] : nullptr; };
+    const auto frame_at = [&](std::size_t ahead) {
+      return i + ahead < now.size() && now[i + ahead].frame != no_frame ? &frames_[now[i + ahead].frame] : nullptr;
+    };
     if (const Frame* const frame = frame_at(12)) __builtin_prefetch(frame);
-    if (const Frame* const frame = frame_at(8)) __builtin_prefetch(&route_[streams_[frame->stream].first + frame->hop + 1]);
+    if (const Frame* const frame = frame_at(8))
+      __builtin_prefetch(&route_[streams_[frame->stream].first + frame->hop + 1]);
     if (const Frame* const frame = frame_at(4); frame != nullptr && frame->hop + 1 < streams_[frame->stream].hops)
       __builtin_prefetch(&ports_[route_[streams_[frame->stream].first + frame->hop + 1]], 1);
   }
@@ -200,7 +213,8 @@ PlantFigures run_plant(unsigned side, bool spread, double simulated_seconds) {
   figures.cpu_seconds = cpu_seconds() - before;
   figures.octets = allocated_octets() - octets_before;
   for (std::uint32_t n = 0; n < run->network().plan().nodes.size(); ++n)
-    for (const models::EgressPort& port : run->network().ports(models::NodeIndex{n})) figures.frame_hops += port.frames_sent();
+    for (const models::EgressPort& port : run->network().ports(models::NodeIndex{n}))
+      figures.frame_hops += port.frames_sent();
   return figures;
 }
 

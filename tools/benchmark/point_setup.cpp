@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
 
 #include "measure.hpp"
-#include "scenario/resolve/resolve.hpp"
+#include "scenario/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "study/compare.hpp"
 #include "workloads.hpp"

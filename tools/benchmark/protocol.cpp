@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The hot path of protocol code, as lines of JSON for tools/bench.
 //
 //   takt_bench_protocol uadp ROUNDS              CPU time of encode + decode, and of what cannot be spared
@@ -32,17 +33,20 @@ void touch(void* memory) { asm volatile("" : : "g"(memory) : "memory"); }
 uadp::PeriodicFixedLayout layout() {
   std::vector<uadp::RawField> fields = {{uadp::BuiltInType::Int32}};
   fields.insert(fields.end(), doubles, {uadp::BuiltInType::Double});
-  return uadp::PeriodicFixedLayout({uadp::PublisherId::uint16(100), 1, 0x2F0E1A00, 1, {uadp::RawLayout(std::move(fields))}});
+  return uadp::PeriodicFixedLayout(
+      {uadp::PublisherId::uint16(100), 1, 0x2F0E1A00, 1, {uadp::RawLayout(std::move(fields))}});
 }
 
-[[gnu::noinline]] void encode(const uadp::PeriodicFixedLayout& layout, const Values& values, std::uint16_t number, std::span<std::byte> target) {
+[[gnu::noinline]] void encode(const uadp::PeriodicFixedLayout& layout, const Values& values, std::uint16_t number,
+                              std::span<std::byte> target) {
   layout.start(target, number);
   layout.set_header(target, 0, number);
   uadp::store_value(target.data() + layout.field_offset(0, 0), values.state);
   layout.store_values(target, 0, 1, std::span(values.axes));
 }
 
-[[gnu::noinline]] bool decode(const uadp::PeriodicFixedLayout& layout, uadp::Octets octets, std::uint16_t number, Values& values) {
+[[gnu::noinline]] bool decode(const uadp::PeriodicFixedLayout& layout, uadp::Octets octets, std::uint16_t number,
+                              Values& values) {
   if (!layout.matches(octets) || layout.sequence_number(octets, 0) != number) return false;
   values.state = uadp::load_value<std::int32_t>(octets.data() + layout.field_offset(0, 0));
   layout.load_values(octets, 0, 1, std::span(values.axes));
@@ -83,7 +87,8 @@ int run_uadp(long rounds) {
     }
     bare += benchmark::cpu_seconds() - begin;
   }
-  std::printf("{\"octets\": %zu, \"codec_ns\": %.3f, \"copy_ns\": %.3f}\n", message.size(), codec / static_cast<double>(rounds) * 1e9, bare / static_cast<double>(rounds) * 1e9);
+  std::printf("{\"octets\": %zu, \"codec_ns\": %.3f, \"copy_ns\": %.3f}\n", message.size(),
+              codec / static_cast<double>(rounds) * 1e9, bare / static_cast<double>(rounds) * 1e9);
   return 0;
 }
 
@@ -113,8 +118,10 @@ struct Group {
   /// Everybody hears the others of the star once.
   void exchange() {
     ++sequence;
-    for (std::size_t s = 1; s < participants.size(); ++s) step(0, handshake::Input::received(s - 1, participants[s].word(), sequence));
-    for (std::size_t s = 1; s < participants.size(); ++s) step(s, handshake::Input::received(0, participants[0].word(), sequence));
+    for (std::size_t s = 1; s < participants.size(); ++s)
+      step(0, handshake::Input::received(s - 1, participants[s].word(), sequence));
+    for (std::size_t s = 1; s < participants.size(); ++s)
+      step(s, handshake::Input::received(0, participants[0].word(), sequence));
   }
   void call(std::size_t participant, program::Method method) {
     step(participant, handshake::Input::command(method));
@@ -138,7 +145,8 @@ int run_handshake(std::size_t peers, long steps) {
   for (long i = 0; i < steps; ++i) {
     const std::size_t peer = static_cast<std::size_t>(i) % peers;
     if (peer == 0) ++group.sequence;
-    const handshake::Outputs outputs = group.participants[0].step(handshake::Input::received(peer, words[peer], group.sequence));
+    const handshake::Outputs outputs =
+        group.participants[0].step(handshake::Input::received(peer, words[peer], group.sequence));
     taken += outputs.ignored ? 0 : 1;
   }
   std::printf("{\"steps\": %ld, \"looked_at\": %llu}\n", steps, static_cast<unsigned long long>(taken));
@@ -155,7 +163,8 @@ int run_changes(std::size_t peers, long rounds) {
     group.call(peers, program::Method::Halt);
     if (group.participants[0].state() != handshake::PublishedState::Halted) return 1;
   }
-  std::printf("{\"steps\": %llu, \"looked_at\": %llu}\n", static_cast<unsigned long long>(group.steps), static_cast<unsigned long long>(group.looked_at));
+  std::printf("{\"steps\": %llu, \"looked_at\": %llu}\n", static_cast<unsigned long long>(group.steps),
+              static_cast<unsigned long long>(group.looked_at));
   return 0;
 }
 
@@ -164,8 +173,10 @@ int run_changes(std::size_t peers, long rounds) {
 int main(int argc, char** argv) {
   const std::string_view workload = argc > 1 ? argv[1] : "";
   if (workload == "uadp" && argc == 3) return run_uadp(std::atol(argv[2]));
-  if (workload == "handshake" && argc == 4) return run_handshake(static_cast<std::size_t>(std::atol(argv[2])), std::atol(argv[3]));
-  if (workload == "changes" && argc == 4) return run_changes(static_cast<std::size_t>(std::atol(argv[2])), std::atol(argv[3]));
+  if (workload == "handshake" && argc == 4)
+    return run_handshake(static_cast<std::size_t>(std::atol(argv[2])), std::atol(argv[3]));
+  if (workload == "changes" && argc == 4)
+    return run_changes(static_cast<std::size_t>(std::atol(argv[2])), std::atol(argv[3]));
   std::fputs("usage: takt_bench_protocol uadp ROUNDS | handshake PEERS STEPS | changes PEERS ROUNDS\n", stderr);
   return 2;
 }

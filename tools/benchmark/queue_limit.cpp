@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -10,8 +11,8 @@
 namespace takt::benchmark {
 namespace {
 
-/// Gaps between an event and the one that it causes, as they occur in the line: many of one length, some of others. A table,
-/// so that making them costs nothing.
+/// Gaps between an event and the one that it causes, as they occur in the line: many of one length, some of others. A
+/// table, so that making them costs nothing.
 class Gaps {
  public:
   Gaps() {
@@ -69,7 +70,9 @@ double bare_loop(std::uint64_t events, std::size_t population, Queue& queue, Pop
   Gaps gaps;
   sim::EventSource source(sim::ComponentId{1});
   for (std::size_t i = 0; i < population; ++i)
-    queue.push({sim::TrueTime() + gaps.next(), sim::Event::order_of(sim::Phase::arrival, {static_cast<std::uint32_t>(i)}, {1}), source.next_serial_word(), 0});
+    queue.push({sim::TrueTime() + gaps.next(),
+                sim::Event::order_of(sim::Phase::arrival, {static_cast<std::uint32_t>(i)}, {1}),
+                source.next_serial_word(), 0});
   const double before = cpu_seconds();
   for (std::uint64_t i = 0; i < events; ++i) {
     sim::Event event = pop(queue);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiled by tools/bench --only build beside takt: what a build costs is said in units of this file. It never changes.
 #include <algorithm>
 #include <functional>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """What takt schedule decides and how long it takes: used by tools/bench, or for folders of instances alone.
 
   tools/benchmark/schedule_bench.py FOLDER [--limit 1s] [--takt build/release/takt]

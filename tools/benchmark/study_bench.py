@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the machinery of studies costs: used by tools/bench. CPU time of takt and of its workers, which the kernel adds up."""
 import pathlib
 import re

@@ -1,27 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <string>
 
 #include "measure.hpp"
-#include "scenario/resolve/resolve.hpp"
+#include "scenario/resolve.hpp"
 #include "scenario/run/run.hpp"
 #include "workloads.hpp"
 
 namespace takt::benchmark {
 namespace {
 
-std::string tree_text(unsigned depth, unsigned fanout, unsigned hosts_per_leaf, std::size_t hosts, double simulated_seconds) {
-  std::string text = R"({"name": "tree", "duration": ")" + std::to_string(static_cast<long long>(simulated_seconds * 1e6)) +
-                     R"(us", "network": {"generate": [{"topology": "tree", "depth": )" + std::to_string(depth) + R"(, "fanout": )" +
-                     std::to_string(fanout) + R"(, "hosts_per_switch": )" + std::to_string(hosts_per_leaf) +
-                     R"(, "rate": "100Gbps", "host_rate": "1Gbps"}]}, "streams": [)";
+std::string tree_text(unsigned depth, unsigned fanout, unsigned hosts_per_leaf, std::size_t hosts,
+                      double simulated_seconds) {
+  std::string text = R"({"name": "tree", "duration": ")" +
+                     std::to_string(static_cast<long long>(simulated_seconds * 1e6)) +
+                     R"(us", "network": {"generate": [{"topology": "tree", "depth": )" + std::to_string(depth) +
+                     R"(, "fanout": )" + std::to_string(fanout) + R"(, "hosts_per_switch": )" +
+                     std::to_string(hosts_per_leaf) + R"(, "rate": "100Gbps", "host_rate": "1Gbps"}]}, "streams": [)";
   for (std::size_t host = 1; host <= hosts; ++host) {
     // A multiplier that is coprime to the number of hosts spreads the receivers over the whole tree; phases differ too.
     std::size_t to = (host * 7 + hosts / 2) % hosts + 1;
     if (to == host) to = to % hosts + 1;
-    text += (host > 1 ? "," : "") + std::string(R"({"name": "s)") + std::to_string(host) + R"(", "from": "h)" + std::to_string(host) + R"(", "to": "h)" +
-            std::to_string(to) + R"(", "payload": "200B", "every": "1ms", "offset": ")" + std::to_string(host * 7919 % 1'000'000) + R"(ns"})";
+    text += (host > 1 ? "," : "") + std::string(R"({"name": "s)") + std::to_string(host) + R"(", "from": "h)" +
+            std::to_string(host) + R"(", "to": "h)" + std::to_string(to) +
+            R"(", "payload": "200B", "every": "1ms", "offset": ")" + std::to_string(host * 7919 % 1'000'000) +
+            R"(ns"})";
   }
   return text + "]}";
 }
@@ -51,7 +56,8 @@ TreeFigures run_tree(unsigned depth, unsigned fanout, unsigned hosts_per_leaf, d
   run->advance();
   figures.cpu_seconds = cpu_seconds() - before;
   for (std::uint32_t n = 0; n < run->network().plan().nodes.size(); ++n)
-    for (const models::EgressPort& port : run->network().ports(models::NodeIndex{n})) figures.frame_hops += port.frames_sent();
+    for (const models::EgressPort& port : run->network().ports(models::NodeIndex{n}))
+      figures.frame_hops += port.frames_sent();
   return figures;
 }
 

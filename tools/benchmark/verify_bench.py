@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """CPU time of takt verify over all shipped scenarios, each with its defaults."""
 import os
 import subprocess

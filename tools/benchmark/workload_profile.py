@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Where a workload of takt_bench spends its time: what valgrind counts, the same on every machine, and what the processor counts where it does."""
 import json
 import re

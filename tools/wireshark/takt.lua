@@ -3,7 +3,7 @@
 --   tshark -X lua_script:tools/wireshark/takt.lua -r all.pcapng
 --
 -- OPC UA PubSub (UADP, OPC 10000-14 7.2.4) on EtherType 0xB62C and on UDP port 4840: headers in full, and in the messages of Programs the fields of their layouts
--- (src/wire/README.md). Traffic that a scenario describes without a protocol: the mark "TAKT", the number of the stream, the sequence number.
+-- (src/protocol/wire/README.md). Traffic that a scenario describes without a protocol: the mark "TAKT", the number of the stream, the sequence number.
 
 local uadp = Proto("takt_uadp", "OPC UA PubSub (UADP)")
 local u = {

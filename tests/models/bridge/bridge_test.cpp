@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include "tests/models/network_fixture.hpp"
@@ -9,7 +10,8 @@ using namespace test;
 
 constexpr auto no_entry = static_cast<std::size_t>(DropReason::no_filtering_entry);
 
-/// Three hosts at ports 0, 1, 2 of a bridge; one frame from the first to the second. Filtering entries as the test wants them.
+/// Three hosts at ports 0, 1, 2 of a bridge; one frame from the first to the second. Filtering entries as the test
+/// wants them.
 struct Star {
   Star() {
     for (NodeIndex& node : hosts) node = builder.host("host" + std::to_string(&node - hosts));

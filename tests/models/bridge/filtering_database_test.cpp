@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The database against std::map.
 #include "models/bridge/filtering_database.hpp"
 
@@ -62,7 +63,8 @@ TEST(FilteringDatabase, EmptyKnowsNothing) {
 
 TEST(FilteringDatabase, PortsAreAscendingAndDistinct) {
   FilteringDatabase database;
-  for (const std::uint16_t port : std::initializer_list<std::uint16_t>{5, 2, 9, 2, 5, 0}) database.add(7, AddressIndex{1}, port);
+  for (const std::uint16_t port : std::initializer_list<std::uint16_t>{5, 2, 9, 2, 5, 0})
+    database.add(7, AddressIndex{1}, port);
   EXPECT_EQ(ports_of(database, 7, 1), (Ports{0, 2, 5, 9}));
   EXPECT_EQ(database.entries(), 1u);
 }
@@ -97,14 +99,16 @@ TEST(FilteringDatabase, AgreesWithAMap) {
     oracle[{vlan, address}].insert(port);
     if (i % 1'000 != 0) continue;
     ASSERT_EQ(database.entries(), oracle.size());
-    for (const auto& [key, ports] : oracle) ASSERT_EQ(ports_of(database, key.first, key.second), Ports(ports.begin(), ports.end()));
+    for (const auto& [key, ports] : oracle)
+      ASSERT_EQ(ports_of(database, key.first, key.second), Ports(ports.begin(), ports.end()));
   }
   EXPECT_GT(oracle.size(), 5'000u);
   for (int i = 0; i < 20'000; ++i) {
     const auto vlan = static_cast<VlanId>(chance.below(4'095));
     const auto address = static_cast<std::uint32_t>(chance.below(5'000));
     const auto found = oracle.find({vlan, address});
-    ASSERT_EQ(ports_of(database, vlan, address), found == oracle.end() ? Ports{} : Ports(found->second.begin(), found->second.end()));
+    ASSERT_EQ(ports_of(database, vlan, address),
+              found == oracle.end() ? Ports{} : Ports(found->second.begin(), found->second.end()));
   }
 }
 

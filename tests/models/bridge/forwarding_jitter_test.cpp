@@ -1,4 +1,6 @@
-// Forwarding delays that differ from frame to frame. Minimum frames at 1 Gb/s occupy the medium for 672 ns and are there after 576.
+// SPDX-License-Identifier: Apache-2.0
+// Forwarding delays that differ from frame to frame. Minimum frames at 1 Gb/s occupy the medium for 672 ns and are
+// there after 576.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +14,8 @@ namespace {
 
 using namespace test;
 
-std::vector<Listener::Arrival> arrivals(const sim::Distribution& jitter, const std::vector<Duration>& times, std::uint64_t* digest = nullptr) {
+std::vector<Listener::Arrival> arrivals(const sim::Distribution& jitter, const std::vector<Duration>& times,
+                                        std::uint64_t* digest = nullptr) {
   Line line(1, 1_Gbps, 0_ns, 920_ns);
   line.builder.plan.nodes[1].forwarding_jitter = std::make_shared<const sim::Distribution>(jitter);
   const StreamIndex stream = line.builder.stream(line.talker, {line.listener});
@@ -34,7 +37,8 @@ TEST(ForwardingJitter, AddsToTheFixedDelay) {
   EXPECT_EQ(one[0].time, local(2'152_ns));
 }
 
-// Frames far from each other: each between 2072 and 2232 ns, near both ends, and on average in the middle (160 / sqrt 12 ns of deviation, over the root of 1000).
+// Frames far from each other: each between 2072 and 2232 ns, near both ends, and on average in the middle (160 / sqrt
+// 12 ns of deviation, over the root of 1000).
 TEST(ForwardingJitter, LiesBetweenItsEnds) {
   std::vector<Duration> times;
   for (int i = 0; i < 1000; ++i) times.push_back(10_us * i);
@@ -57,7 +61,8 @@ TEST(ForwardingJitter, LiesBetweenItsEnds) {
   EXPECT_EQ(first, second);
 }
 
-// Frames 672 ns apart of which one may take 100 us longer than the next: in order, none closer behind another than the wire allows, and some that have waited for one before.
+// Frames 672 ns apart of which one may take 100 us longer than the next: in order, none closer behind another than the
+// wire allows, and some that have waited for one before.
 TEST(ForwardingJitter, NobodyOvertakes) {
   const auto all = arrivals(sim::Distribution::uniform(0_ns, 100_us), std::vector<Duration>(500, 0_ns));
   ASSERT_EQ(all.size(), 500u);

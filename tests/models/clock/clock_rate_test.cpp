@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/clock/clock_rate.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,8 @@ TEST(RateOffset, CumulativeScaledRateOffset) {
   EXPECT_EQ(RateOffset::from({-30'000'000}).scaled_41(), -65'970'698);  // towards minus infinity
   EXPECT_EQ(RateOffset::from({2'000'000'000}).scaled_41(), INT32_MAX);
   EXPECT_EQ(RateOffset::from({-2'000'000'000}).scaled_41(), INT32_MIN);
-  for (const std::int32_t scaled : {0, 1, -1, INT32_MAX, INT32_MIN}) EXPECT_EQ(RateOffset::from_scaled_41(scaled).scaled_41(), scaled);
+  for (const std::int32_t scaled : {0, 1, -1, INT32_MAX, INT32_MIN})
+    EXPECT_EQ(RateOffset::from_scaled_41(scaled).scaled_41(), scaled);
 }
 
 TEST(ClockRate, ScalesDurations) {
@@ -51,7 +53,8 @@ TEST(ClockRate, ProductsAndQuotientsStayInRange) {
 TEST(FixedSine, AgreesWithLibm) {
   for (std::uint64_t i = 0; i < 4096; ++i) {
     const std::uint64_t turns = i * 0x001003'7B3A'19C5'11ULL;
-    const long double angle = std::ldexp(static_cast<long double>(turns), -64) * 2 * 3.14159265358979323846264338327950288L;
+    const long double angle =
+        std::ldexp(static_cast<long double>(turns), -64) * 2 * 3.14159265358979323846264338327950288L;
     const long double sine = std::ldexp(static_cast<long double>(fixed_sine(turns)), -62);
     EXPECT_NEAR(static_cast<double>(sine - std::sin(angle)), 0, 1e-17) << turns;
   }

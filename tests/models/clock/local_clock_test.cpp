@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/clock/local_clock.hpp"
 
 #include <gtest/gtest.h>
@@ -76,8 +77,10 @@ TEST(LocalClock, UnsteppedTimeDoesNotJump) {
 
 TEST(LocalClock, FractionsAreNotLostAtManyChanges) {
   LocalClock clock;
-  // 10^6 changes 1 us apart that alternate between +1 and -1 ppm: each microsecond is wrong by 1 ps, every second undoes it.
-  for (std::int64_t i = 0; i < 1'000'000; ++i) clock.set_adjustment(true_time(i * 1_us), RateOffset::from({i % 2 == 0 ? 333'333 : -333'333}));
+  // 10^6 changes 1 us apart that alternate between +1 and -1 ppm: each microsecond is wrong by 1 ps, every second
+  // undoes it.
+  for (std::int64_t i = 0; i < 1'000'000; ++i)
+    clock.set_adjustment(true_time(i * 1_us), RateOffset::from({i % 2 == 0 ? 333'333 : -333'333}));
   const Duration error = clock.local_at(true_time(1_s)) - local(1_s);
   EXPECT_LE(error, 1_ps);
   EXPECT_GE(error, -(1_ps));
@@ -115,7 +118,9 @@ TrueTime disturb(LocalClock& clock, bool with_steps) {
   TrueTime now;
   for (int i = 0; i < changes; ++i) {
     now += Duration::from_ps(*rc::gen::inRange<std::int64_t>(0, 2'000'000'000'000));
-    clock.set_hardware_rate(now, ClockRate::one_plus(RateOffset::from({*rc::gen::inRange<std::int64_t>(-900'000'000'000, 1'000'000'000'000)})));
+    clock.set_hardware_rate(
+        now,
+        ClockRate::one_plus(RateOffset::from({*rc::gen::inRange<std::int64_t>(-900'000'000'000, 1'000'000'000'000)})));
     if (with_steps) clock.step(now, Duration::from_ps(*rc::gen::inRange<std::int64_t>(-1'000'000'000, 1'000'000'000)));
   }
   return now;
@@ -141,7 +146,8 @@ TEST(LocalClockProperty, TrueAtIsMonotonousAndLiesInItsSegment) {
   ASSERT_TRUE(rc::check("over rate changes and steps", [] {
     LocalClock clock;
     const TrueTime last = disturb(clock, true);
-    const LocalTime a = clock.local_at(last) + Duration::from_ps(*rc::gen::inRange<std::int64_t>(-2'000'000'000, 2'000'000'000));
+    const LocalTime a =
+        clock.local_at(last) + Duration::from_ps(*rc::gen::inRange<std::int64_t>(-2'000'000'000, 2'000'000'000));
     const LocalTime b = a + Duration::from_ps(*rc::gen::inRange<std::int64_t>(0, 1'000'000'000));
     RC_ASSERT(clock.true_at(a) <= clock.true_at(b));
     RC_ASSERT((a >= clock.local_at(last)) == (clock.true_at(a) >= last) || clock.true_at(a) == last);
@@ -151,7 +157,9 @@ TEST(LocalClockProperty, TrueAtIsMonotonousAndLiesInItsSegment) {
 }
 
 /// What true_at() is by definition: the first instant at which the clock shows `time`.
-bool is_first(const LocalClock& clock, TrueTime at, LocalTime time) { return clock.local_at(at) >= time && clock.local_at(at - 1_ps) < time; }
+bool is_first(const LocalClock& clock, TrueTime at, LocalTime time) {
+  return clock.local_at(at) >= time && clock.local_at(at - 1_ps) < time;
+}
 
 // Most answers are those of SegmentInverse: next to the start of the segment and far behind it, at all rates.
 TEST(LocalClockProperty, TrueAtIsTheFirstInstantNearAndFar) {
@@ -159,22 +167,27 @@ TEST(LocalClockProperty, TrueAtIsTheFirstInstantNearAndFar) {
     LocalClock clock;
     const TrueTime last = disturb(clock, false);
     const auto distance = std::int64_t{1} << *rc::gen::inRange(0, 58);
-    const LocalTime time = clock.local_at(last) + 1_ps + Duration::from_ps(*rc::gen::inRange<std::int64_t>(1, distance + 1));
+    const LocalTime time =
+        clock.local_at(last) + 1_ps + Duration::from_ps(*rc::gen::inRange<std::int64_t>(1, distance + 1));
     RC_ASSERT(is_first(clock, clock.true_at(time), time));
   }));
 }
 
-// Segments that begin with a fraction of a picosecond, at rates that are whole, inexact, fast and slow: where the multiplication answers, it
-// is right; and it does answer nearly everywhere, at rates that are not as near to a simple ratio as these.
+// Segments that begin with a fraction of a picosecond, at rates that are whole, inexact, fast and slow: where the
+// multiplication answers, it is right; and it does answer nearly everywhere, at rates that are not as near to a simple
+// ratio as these.
 TEST(SegmentInverse, IsExactOrSaysNothing) {
   constexpr std::uint64_t one = std::uint64_t{RateOffset::one};
   std::size_t silent = 0;
   std::size_t asked = 0;
-  for (const std::uint64_t rate : {one / 2, one / 2 + 1, one - 1, one, one + 1, one + one / 20'000, one - one / 20'000, one + one / 3, 2 * one - 1, 2 * one}) {
+  for (const std::uint64_t rate : {one / 2, one / 2 + 1, one - 1, one, one + 1, one + one / 20'000, one - one / 20'000,
+                                   one + one / 3, 2 * one - 1, 2 * one}) {
     for (const std::uint64_t fraction : {std::uint64_t{0}, std::uint64_t{1}, one / 3, one / 2, one - 2, one - 1}) {
-      const sim::int128 start_shows = (sim::int128{1'000'007} << RateOffset::fraction_bits) + static_cast<sim::int128>(fraction);
+      const sim::int128 start_shows =
+          (sim::int128{1'000'007} << RateOffset::fraction_bits) + static_cast<sim::int128>(fraction);
       const SegmentInverse inverse(TrueTime::from_ps(77), start_shows, ClockRate::from_multiple(rate));
-      std::vector<std::int64_t> distances = {1, 2, 3, 20'000'000, 1'000'000'000'000, (std::int64_t{1} << 56) - 1, std::int64_t{1} << 56};
+      std::vector<std::int64_t> distances = {
+          1, 2, 3, 20'000'000, 1'000'000'000'000, (std::int64_t{1} << 56) - 1, std::int64_t{1} << 56};
       for (std::int64_t d = 5; d < 1'000'000'000'000'000; d = 3 * d + 1) distances.push_back(d);
       for (const std::int64_t d : distances) {
         const bool is_real = rate == one + one / 20'000 || rate == one - one / 20'000;
@@ -202,17 +215,21 @@ TEST(SegmentInverse, SaysNothingOfRatesAndTimesThatItDoesNotKnow) {
   const LocalTime soon = local(1_us);
   EXPECT_FALSE(SegmentInverse().at(soon));
   EXPECT_TRUE(SegmentInverse(TrueTime(), 0, ClockRate::one()).at(soon));
-  EXPECT_FALSE(SegmentInverse(TrueTime(), 0, ClockRate::from_multiple(std::uint64_t{RateOffset::one} / 2 - 1)).at(soon));
+  EXPECT_FALSE(
+      SegmentInverse(TrueTime(), 0, ClockRate::from_multiple(std::uint64_t{RateOffset::one} / 2 - 1)).at(soon));
   EXPECT_FALSE(SegmentInverse(TrueTime::from_ps(INT64_MAX - 10'000'000), 0, ClockRate::one()).at(soon));
-  EXPECT_FALSE(SegmentInverse(TrueTime(), sim::int128{INT64_MAX - 10} << RateOffset::fraction_bits, ClockRate::one()).at(LocalTime::never()));
+  EXPECT_FALSE(SegmentInverse(TrueTime(), sim::int128{INT64_MAX - 10} << RateOffset::fraction_bits, ClockRate::one())
+                   .at(LocalTime::never()));
 }
 
 TEST(EqualSteps, AreWhatTheClockSaysOfEach) {
   ASSERT_TRUE(rc::check("after changes of rate and steps", [] {
     LocalClock clock;
     const TrueTime last = disturb(clock, true);
-    const LocalTime first = clock.local_at(last) + Duration::from_ps(*rc::gen::inRange<std::int64_t>(-1'000'000'000, 1'000'000'000'000));
-    const Duration step = Duration::from_ps(std::int64_t{1} << *rc::gen::inRange(0, 50)) + Duration::from_ps(*rc::gen::inRange<std::int64_t>(0, 1000));
+    const LocalTime first =
+        clock.local_at(last) + Duration::from_ps(*rc::gen::inRange<std::int64_t>(-1'000'000'000, 1'000'000'000'000));
+    const Duration step = Duration::from_ps(std::int64_t{1} << *rc::gen::inRange(0, 50)) +
+                          Duration::from_ps(*rc::gen::inRange<std::int64_t>(0, 1000));
     EqualSteps steps = clock.steps_from(first, step);
     RC_ASSERT(steps.is_set() == (clock.true_at(first) > last));
     RC_PRE(steps.is_set());
@@ -234,7 +251,7 @@ TEST(EqualSteps, OfAnIdealClockAreItsOwn) {
 
 TEST(EqualSteps, EndWithTime) {
   LocalClock clock;
-  clock.set_hardware_rate(TrueTime(), ClockRate::from_multiple(1));   // all but stands still
+  clock.set_hardware_rate(TrueTime(), ClockRate::from_multiple(1));  // all but stands still
   EqualSteps steps = clock.steps_from(LocalTime::from_ps(3), 1_s);
   EXPECT_FALSE(steps.is_set()) << "it never shows even 3 ps";
   clock.set_hardware_rate(true_time(1_s), ppm(-500'000));

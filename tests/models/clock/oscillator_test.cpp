@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/clock/oscillator.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,9 @@ using sim::LocalTime;
 using sim::TrueTime;
 
 TrueTime true_time(Duration d) { return TrueTime() + d; }
-std::int64_t ppt(const Oscillator& oscillator) { return oscillator.rate().minus_one().frequency_offset().parts_per_trillion; }
+std::int64_t ppt(const Oscillator& oscillator) {
+  return oscillator.rate().minus_one().frequency_offset().parts_per_trillion;
+}
 /// Goes on up to `until`, that instant included.
 void run(Oscillator& oscillator, TrueTime until) {
   while (oscillator.next_change() <= until) oscillator.advance();
@@ -53,7 +56,8 @@ TEST(Oscillator, TemperatureIsASine) {
 }
 
 TEST(Oscillator, PhaseShiftsTheSine) {
-  const Oscillator oscillator({.temperature = SinusoidalFrequency{{2'000'000}, 4_s, std::uint64_t{1} << 62}, .update_interval = 1_us});
+  const Oscillator oscillator(
+      {.temperature = SinusoidalFrequency{{2'000'000}, 4_s, std::uint64_t{1} << 62}, .update_interval = 1_us});
   EXPECT_NEAR(static_cast<double>(ppt(oscillator)), 2'000'000, 1);
 }
 
@@ -74,7 +78,8 @@ TEST(Oscillator, ATableIsLinearBetweenItsPointsAndFlatOutside) {
 
 TEST(Oscillator, AWalkStaysInItsBoundsAndIsAFunctionOfSeedAndPath) {
   const OscillatorConfig config{.walk = FrequencyWalk{{100}, {1'000}}, .update_interval = 1_ms};
-  Oscillator a(config, 1, "bridge1"), same(config, 1, "bridge1"), other_path(config, 1, "bridge2"), other_seed(config, 2, "bridge1");
+  Oscillator a(config, 1, "bridge1"), same(config, 1, "bridge1"), other_path(config, 1, "bridge2"),
+      other_seed(config, 2, "bridge1");
   std::int64_t highest = 0, lowest = 0;
   bool path_matters = false, seed_matters = false;
   for (int i = 0; i < 100'000; ++i) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/clock/servo.hpp"
 
 #include <gtest/gtest.h>
@@ -25,8 +26,11 @@ TEST(ServoGains, AreThoseOfTheRule) {
   for (int n = ServoGains::lowest_log_interval; n <= ServoGains::highest_log_interval; ++n) {
     const double t = std::ldexp(1.0, n);
     const ServoGains gains = ServoGains::of_interval(n);
-    EXPECT_NEAR(std::ldexp(static_cast<double>(gains.proportional), -56), std::min(0.7 * std::pow(t, -0.3), 0.7 / t), 1e-14) << n;
-    EXPECT_NEAR(std::ldexp(static_cast<double>(gains.integral), -56), std::min(0.3 * std::pow(t, 0.4), 0.3 / t), 1e-14) << n;
+    EXPECT_NEAR(std::ldexp(static_cast<double>(gains.proportional), -56), std::min(0.7 * std::pow(t, -0.3), 0.7 / t),
+                1e-14)
+        << n;
+    EXPECT_NEAR(std::ldexp(static_cast<double>(gains.integral), -56), std::min(0.3 * std::pow(t, 0.4), 0.3 / t), 1e-14)
+        << n;
   }
   EXPECT_EQ(ServoGains::of_interval(-20), ServoGains::of_interval(-7));
   EXPECT_EQ(ServoGains::of_interval(20), ServoGains::of_interval(4));
@@ -123,7 +127,8 @@ TEST(Servo, WaitsForALongEnoughEstimate) {
 TEST(Servo, IsClamped) {
   Loop loop({.first_step_threshold = 0_ns, .highest_frequency = {1'000'000}}, {}, 10_us);
   loop.run(3);
-  EXPECT_EQ(loop.servo.sample(10_us, loop.clock.local_at(loop.now)).adjustment.frequency_offset().parts_per_trillion, -1'000'000);
+  EXPECT_EQ(loop.servo.sample(10_us, loop.clock.local_at(loop.now)).adjustment.frequency_offset().parts_per_trillion,
+            -1'000'000);
   EXPECT_LE(std::abs(loop.servo.frequency().frequency_offset().parts_per_trillion), 1'000'000) << "nothing winds up";
   loop.run(1'000);
   EXPECT_LE(std::abs(loop.offset.ps()), 2);
@@ -138,7 +143,8 @@ TEST(Servo, LockedStableAfterEnoughSmallOffsets) {
   EXPECT_EQ(loop.next().state, ServoState::locked);
 }
 
-// The exact answer: linear drift D at the sync interval T leaves D T / ki, 1 ppm/s * 0.125 s / 0.130583 = 957 ns.
+// The exact answer: linear drift D at the sync interval T leaves D T / ki, 1 ppm/s * 0.125 s / 0.130583 = 957
+// ns.
 TEST(Servo, PiKeepsTheKnownOffsetOnARamp) {
   Loop loop({}, {.drift_ppt_per_second = 1'000'000, .update_interval = 1_ms}, Duration());
   loop.run(800);
@@ -146,19 +152,23 @@ TEST(Servo, PiKeepsTheKnownOffsetOnARamp) {
 }
 
 TEST(Servo, DriftTrackingFollowsARamp) {
-  Loop loop({.kind = ServoKind::drift_tracking}, {.drift_ppt_per_second = 1'000'000, .update_interval = 1_ms}, Duration());
+  Loop loop({.kind = ServoKind::drift_tracking}, {.drift_ppt_per_second = 1'000'000, .update_interval = 1_ms},
+            Duration());
   loop.run(800);
   EXPECT_LE(std::abs(loop.offset.ps()), 100);
   // 1 ppm/s * 0.125 s an interval; at +100 ppm the trim needs 1 / 1.0001^2 of that
   EXPECT_NEAR(static_cast<double>(loop.servo.drift().frequency_offset().parts_per_trillion), 124'975, 3);
   // After 8 s of holdover the frequency has gone on by 8 ppm.
-  EXPECT_NEAR(static_cast<double>((loop.servo.holdover(0_s) - loop.servo.holdover(8_s)).frequency_offset().parts_per_trillion), 8e6, 2e3);
+  EXPECT_NEAR(
+      static_cast<double>((loop.servo.holdover(0_s) - loop.servo.holdover(8_s)).frequency_offset().parts_per_trillion),
+      8e6, 2e3);
 }
 
 TEST(Servo, DriftTrackingIsBetterOnASlowWaveToo) {
   Duration worst[2];
   for (const ServoKind kind : {ServoKind::pi, ServoKind::drift_tracking}) {
-    Loop loop({.kind = kind}, {.temperature = SinusoidalFrequency{{10'000'000}, 120_s, 0}, .update_interval = 1_ms}, Duration());
+    Loop loop({.kind = kind}, {.temperature = SinusoidalFrequency{{10'000'000}, 120_s, 0}, .update_interval = 1_ms},
+              Duration());
     loop.run(400);
     for (int i = 0; i < 960; ++i) {
       loop.next();

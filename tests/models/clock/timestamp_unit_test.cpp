@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/clock/timestamp_unit.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +31,8 @@ TEST(TimestampUnit, CountsInItsGranularity) {
 
 TEST(TimestampUnit, LatenciesVanishIfTheyAreKnown) {
   sim::RandomStream chance(1, "n", "t");
-  TimestampUnit unit{.egress_latency = 100_ns, .ingress_latency = 260_ns, .egress_correction = 100_ns, .ingress_correction = 260_ns};
+  TimestampUnit unit{
+      .egress_latency = 100_ns, .ingress_latency = 260_ns, .egress_correction = 100_ns, .ingress_correction = 260_ns};
   EXPECT_EQ(unit.egress(local(5_us), chance), local(5_us));
   EXPECT_EQ(unit.ingress(local(5_us), chance), local(5_us));
   unit.egress_correction = 0_ns;

@@ -1,10 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // Credit in exact numbers, and against a shaper that steps through every picosecond.
+#include "models/egress/credit_based_shaper.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 
-#include "models/egress/credit_based_shaper.hpp"
 #include "models/ethernet/sizes.hpp"
 
 namespace takt::models {
@@ -28,8 +30,8 @@ std::int64_t millibits(const CreditBasedShaper& shaper, Credit credit) {
 }
 std::int64_t millibits(const CreditBasedShaper& shaper, TrueTime now) { return millibits(shaper, shaper.credit(now)); }
 
-// 1000 octets at 100 Mb/s occupy 1020 * 80 ns = 81.6 us; at -75 Mb/s that is -6120 bits, which 25 Mb/s make good in 244.8 us.
-// The period of 326.4 us is 1020 octets at 25 Mb/s.
+// 1000 octets at 100 Mb/s occupy 1020 * 80 ns = 81.6 us; at -75 Mb/s that is -6120 bits, which 25 Mb/s make good in
+// 244.8 us. The period of 326.4 us is 1020 octets at 25 Mb/s.
 TEST(CreditBasedShaper, ABackloggedClassSendsAtItsIdleSlope) {
   CreditBasedShaper shaper(mbps(25), 100_Mbps);
   TrueTime now = at(0_us);
@@ -115,7 +117,8 @@ TEST(CreditBasedShaper, PositiveCreditIsLostWithAClosedGateToo) {
   EXPECT_EQ(millibits(shaper, at(50_us)), 0);
 }
 
-// Two fragments with express traffic between them: 40 us of each, credit -3000, +250 in the 10 us between, -2750 - 3000.
+// Two fragments with express traffic between them: 40 us of each, credit -3000, +250 in the 10 us between, -2750 -
+// 3000.
 TEST(CreditBasedShaper, APreemptedFrameGoesOnWithDebt) {
   CreditBasedShaper shaper(mbps(25), 100_Mbps);
   shaper.frame_enqueued(at(0_us));
@@ -133,8 +136,8 @@ TEST(CreditBounds, TheExampleOfTcCbs) {
   EXPECT_EQ(millibits(shaper, shaper.hi_credit(12_us)), 30 * 8'000);
 }
 
-// Class A waits with class B for 1542 octets (3084 bits of credit at 25 Mb/s), then sends two of 257 octets (-1542 bits each)
-// and a third with credit 0. B waits for (1542 + 3 * 257) * 80 ns = 185.04 us = 12336 bits / 75 Mb/s + 20.56 us.
+// Class A waits with class B for 1542 octets (3084 bits of credit at 25 Mb/s), then sends two of 257 octets (-1542 bits
+// each) and a third with credit 0. B waits for (1542 + 3 * 257) * 80 ns = 185.04 us = 12336 bits / 75 Mb/s + 20.56 us.
 TEST(CreditBounds, TheSecondClassWaitsForABurstOfTheFirst) {
   const Duration bound = second_class_interference(1542_B, 257_B, mbps(25), 100_Mbps);
   EXPECT_EQ(bound, 185'040_ns);
@@ -154,7 +157,8 @@ TEST(OperationalIdleSlope, IsAnExactRatio) {
   EXPECT_EQ(operational_idle_slope(20_Mbps, 300_us, 1_ms, 1_Gbps), (CreditSlope{200'000'000, 3}));
   EXPECT_EQ(operational_idle_slope(20_Mbps, 250_us, 1_ms, 1_Gbps), (CreditSlope{80'000'000, 1}));
   EXPECT_EQ(operational_idle_slope(20_Mbps, 1_ms, 1_ms, 1_Gbps), (CreditSlope{20'000'000, 1}));
-  // 10 Gb/s on a denominator of 999'999'999'937 needs 74 bits: whole bit/s, 20 Mb/s * 10^12 / 999'999'999'937 rounded down.
+  // 10 Gb/s on a denominator of 999'999'999'937 needs 74 bits: whole bit/s, 20 Mb/s * 10^12 / 999'999'999'937 rounded
+  // down.
   EXPECT_EQ(operational_idle_slope(20_Mbps, 999'999'999'937_ps, 1_s, 10_Gbps), (CreditSlope{20'000'000, 1}));
 }
 
@@ -208,11 +212,13 @@ struct Stepper {
 TEST(CreditBasedShaper, StepsAsTheRulesDo) {
   int started_at_rest = 0;
   const bool passed = rc::check("a shaper against the stepper", [&started_at_rest] {
-    const auto number = [](std::int64_t low, std::int64_t high) { return *rc::gen::inRange<std::int64_t>(low, high + 1); };
+    const auto number = [](std::int64_t low, std::int64_t high) {
+      return *rc::gen::inRange<std::int64_t>(low, high + 1);
+    };
     const std::int64_t denominator = number(1, 7), rate = number(1, 20);
     const std::int64_t numerator = number(0, rate * denominator);
     CreditBasedShaper shaper({numerator, denominator}, DataRate{static_cast<std::uint64_t>(rate)});
-    const bool is_quiet = number(0, 1) == 1;   // then frames come alone
+    const bool is_quiet = number(0, 1) == 1;  // then frames come alone
     Stepper stepper;
     stepper.idle = numerator;
     stepper.send = numerator - rate * denominator;
@@ -273,17 +279,18 @@ TEST(CreditBasedShaper, StepsAsTheRulesDo) {
   EXPECT_GT(started_at_rest, 10);
 }
 
-// 1000 octets at 1 Gb/s with an idle slope of 600 Mb/s: a debt of 400 Mb/s for 8 us, which 600 Mb/s pay in 5333.3 ns. What is known beforehand is at most 1/256 of 8 us more.
+// 1000 octets at 1 Gb/s with an idle slope of 600 Mb/s: a debt of 400 Mb/s for 8 us, which 600 Mb/s pay in 5333.3 ns.
+// What is known beforehand is at most 1/256 of 8 us more.
 TEST(CreditBasedShaper, RestIsKnownInTime) {
   CreditBasedShaper shaper({600'000'000, 1}, 1_Gbps);
   shaper.frame_enqueued(at(0_us));
-  EXPECT_FALSE(shaper.starts_at_rest(at(0_us), 8_us));   // something waits
+  EXPECT_FALSE(shaper.starts_at_rest(at(0_us), 8_us));  // something waits
   shaper.transmission_started(at(0_us), 8_us, true);
   EXPECT_FALSE(shaper.starts_at_rest(at(13'333_ns), 8_us));
   EXPECT_TRUE(shaper.starts_at_rest(at(13'365_ns), 8_us));
   EXPECT_EQ(shaper.credit(at(13'365_ns)).units, 0);
   EXPECT_FALSE(shaper.starts_at_rest(at(26'698_ns), 8_us));
-  EXPECT_EQ(shaper.eligible_time(at(26'698_ns)), at(26'699_ns) - Duration::from_ps(666));   // 13,365 + 13,333.334 ns
+  EXPECT_EQ(shaper.eligible_time(at(26'698_ns)), at(26'699_ns) - Duration::from_ps(666));  // 13,365 + 13,333.334 ns
 }
 
 }  // namespace

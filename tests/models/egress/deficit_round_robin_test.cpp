@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Enhanced transmission selection: whose turn it is, frame by frame, and at a port with everything else.
 #include "models/egress/deficit_round_robin.hpp"
 
@@ -26,7 +27,8 @@ std::string sent(DeficitRoundRobin& round, const PerClass& lengths, std::size_t 
   return order;
 }
 
-// 75 and 25 octets a round, frames of 100: class 2 has 75, 150, 125, 100 when its turn comes, and class 1 has 25, 50, 75, 100.
+// 75 and 25 octets a round, frames of 100: class 2 has 75, 150, 125, 100 when its turn comes, and class 1 has 25, 50,
+// 75, 100.
 TEST(DeficitRoundRobin, OrderByHand) {
   DeficitRoundRobin round({0, 25, 75});
   EXPECT_EQ(sent(round, {0, 100, 100}, 12), "222122212221");
@@ -53,12 +55,13 @@ TEST(DeficitRoundRobin, TheShareOfAnIdleClassGoesToTheOthers) {
   EXPECT_EQ(sent(round, {0, 100}, 3), "111");
 }
 
-// Class 2 has 50 octets left when its queue is empty, and begins at 0 when it comes back. So it needs two rounds for 100 octets, as class 1 does, which is visited before it; with the 50 it would need one.
+// Class 2 has 50 octets left when its queue is empty, and begins at 0 when it comes back. So it needs two rounds for
+// 100 octets, as class 1 does, which is visited before it; with the 50 it would need one.
 TEST(DeficitRoundRobin, WhoHasNothingToSendSavesNothing) {
   DeficitRoundRobin round({0, 25, 75});
   EXPECT_EQ(round.choose({0, 100, 100}), 2);
   round.started(2, 100, true);
-  EXPECT_EQ(round.choose({0, 60, 100}), 1);     // class 1 has 25
+  EXPECT_EQ(round.choose({0, 60, 100}), 1);  // class 1 has 25
   // The same if what waits is dropped: two rounds later class 1 has 75.
   EXPECT_EQ(round.choose({0, 1000, 100}), 2);
   round.started(2, 100, false);
@@ -86,13 +89,14 @@ TEST(DeficitRoundRobin, JumpsOverEmptyRoundsAsIfItWentThroughThem) {
     }
     DeficitRoundRobin round(quanta);
     wire_checker::ShareAccount literal(config);
-    PerClass waiting{};   // the first frame of each queue
+    PerClass waiting{};  // the first frame of each queue
     for (int step = 0; step < 300; ++step) {
       PerClass heads{};
       for (TrafficClass q = 0; q < traffic_class_count; ++q) {
         if (quanta[q] == 0) continue;
-        if (waiting[q] == 0 && (q == 3 || chance.below(3) == 0)) waiting[q] = 84 + static_cast<std::int64_t>(chance.below(1459));
-        if (q == 3 || chance.below(5) != 0) heads[q] = waiting[q];   // some gates are closed
+        if (waiting[q] == 0 && (q == 3 || chance.below(3) == 0))
+          waiting[q] = 84 + static_cast<std::int64_t>(chance.below(1459));
+        if (q == 3 || chance.below(5) != 0) heads[q] = waiting[q];  // some gates are closed
       }
       const TrafficClass q = round.choose(heads);
       ASSERT_EQ(q, literal.next(heads)) << "trial " << trial << ", step " << step;
@@ -136,29 +140,40 @@ struct SharedLink {
   NodeIndex listener;
 };
 
-// Eight frames of each class at once, and one of a class without a share, which goes before although its number is lower. Octets that class 2 has got when its turn comes, before it sends 84:
-// 75, 150, 141, 132, 123, 114, 105, 96, 87, and then its queue is empty; class 1: 25, 50, 75, 100, 41, 66, 91, 32, 57. So class 2 sends in rounds 2 to 9, class 1 in rounds 4 and 7, and the rest of class 1 follows.
+// Eight frames of each class at once, and one of a class without a share, which goes before although its number is
+// lower. Octets that class 2 has got when its turn comes, before it sends 84: 75, 150, 141, 132, 123, 114, 105, 96, 87,
+// and then its queue is empty; class 1: 25, 50, 75, 100, 41, 66, 91, 32, 57. So class 2 sends in rounds 2 to 9, class 1
+// in rounds 4 and 7, and the rest of class 1 follows.
 TEST(EnhancedTransmissionSelection, SharesWhatTheOthersLeave) {
   SharedLink link;
   link.send(2, 8, 1_us);
   link.send(1, 8, 1_us);
   link.send(0, 1, 1_us);
-  EXPECT_EQ(link.order(), "02221222122" "111111");
-  EXPECT_EQ(link.order(7), "02221222122" "111111");
+  EXPECT_EQ(link.order(),
+            "02221222122"
+            "111111");
+  EXPECT_EQ(link.order(7),
+            "02221222122"
+            "111111");
   // One of class 5 comes while the second frame of class 2 is on the medium: it goes next and changes nobody's turn.
   link.send(5, 1, 2'500_ns);
-  EXPECT_EQ(link.order(), "02252122212" "2111111");
+  EXPECT_EQ(link.order(),
+            "02252122212"
+            "2111111");
 }
 
 // A class whose gate is closed has no turn; its share goes to the other one.
 TEST(EnhancedTransmissionSelection, BehindAGate) {
   SharedLink link;
-  link.config().shaping.gates = GateConfig{{{GateOperation::set_gate_states, 0x02, 10_us}, {GateOperation::set_gate_states, 0xFF, 990_us}}, 1_ms, {}, {}};
+  link.config().shaping.gates = GateConfig{
+      {{GateOperation::set_gate_states, 0x02, 10_us}, {GateOperation::set_gate_states, 0xFF, 990_us}}, 1_ms, {}, {}};
   link.send(2, 3, 0_us);
   link.send(1, 16, 0_us);
-  // The last of 15 frames of class 1 ends after 14 * 672 + 576 ns = 9.984 us, and 15 octets are left of 51 * 25. Class 2 then has 75, 150 and sends, 141 and sends, while class 1 has 40 and 65, and 90 before
-  // class 2 has its next turn.
-  EXPECT_EQ(link.order(), "111111111111111" "2212");
+  // The last of 15 frames of class 1 ends after 14 * 672 + 576 ns = 9.984 us, and 15 octets are left of 51 * 25. Class
+  // 2 then has 75, 150 and sends, 141 and sends, while class 1 has 40 and 65, and 90 before class 2 has its next turn.
+  EXPECT_EQ(link.order(),
+            "111111111111111"
+            "2212");
 }
 
 // Preemptable classes that share: an express frame cuts one of them, and its rest comes before any other.

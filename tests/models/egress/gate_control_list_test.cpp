@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Gates as a function of time against the state machines run tick by tick, and against numbers worked out by hand.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -33,7 +34,8 @@ StartAnswer ask_again_at(LocalTime time) { return {false, time}; }
 // Cycle 1 ms, H 0x80 for 100 us, R 0x7F for 900 us.
 const std::vector<GateControlEntry> worked_entries = {{hold, 0x80, 100_us}, {release, 0x7F, 900_us}};
 
-// At 1 Gb/s, 1522 octets and the preamble take 1530 * 8 ns = 12.24 us: 995 + 12.24 > 1000. 500 octets take 4.064 us and fit.
+// At 1 Gb/s, 1522 octets and the preamble take 1530 * 8 ns = 12.24 us: 995 + 12.24 > 1000. 500 octets take 4.064 us and
+// fit.
 TEST(WorkedSchedule, AFrameStartsOnlyIfItEndsBeforeItsGateCloses) {
   const GateControlList list(worked_entries, 1_ms);
   GateSchedule gates = running_from_0(list);
@@ -80,7 +82,8 @@ TEST(WorkedSchedule, AChangeThatComesTooLateForTheExtensionCutsACycleShort) {
   }
 }
 
-// Asked before 3.0 ms: T = 4.4 <= 3.0 + 1.0 + 0.5, so the cycle from 3.0 on lasts until 4.4 with the last entry's gates.
+// Asked before 3.0 ms: T = 4.4 <= 3.0 + 1.0 + 0.5, so the cycle from 3.0 on lasts until 4.4 with the last entry's
+// gates.
 TEST(WorkedSchedule, AChangeWithinReachOfTheExtensionStretchesTheLastCycle) {
   const GateControlList list(worked_entries, 1_ms), next(std::vector<GateControlEntry>{{set, 0x80, 50_us}}, 50_us);
   GateSchedule gates = running_from_0(list, 500_us);
@@ -132,7 +135,8 @@ TEST(GateSchedule, AListMayBeShorterOrLongerThanItsCycle) {
   const GateControlList brief(std::vector<GateControlEntry>{{set, 1, 20_us}, {set, 2, 10_us}}, 100_us);
   EXPECT_EQ(running_from_0(brief).window(1, at(0_ns)), (GateWindow{at(20_us), at(100_us)}));
   EXPECT_EQ(brief.open_share(1), (OpenShare{80_us, 100_us}));
-  const GateControlList lengthy(std::vector<GateControlEntry>{{set, 1, 100_us}, {set, 2, 100_us}, {set, 4, 100_us}}, 150_us);
+  const GateControlList lengthy(std::vector<GateControlEntry>{{set, 1, 100_us}, {set, 2, 100_us}, {set, 4, 100_us}},
+                                150_us);
   EXPECT_EQ(running_from_0(lengthy).window(1, at(0_ns)), (GateWindow{at(100_us), at(150_us)}));
   EXPECT_EQ(running_from_0(lengthy).open_time(2, at(0_ns)), never);
   EXPECT_EQ(lengthy.open_share(2), (OpenShare{0_us, 150_us}));
@@ -201,14 +205,17 @@ TEST(HoldAndRelease, TheRequestComesInAdvance) {
   EXPECT_EQ(gates.hold_request(at(1'050_us), 950_us, 0_us), (HoldRequest{true, never}));
 }
 
-// Each period joins the next, for as long as the list runs; a port that asks for each frame could not walk to there. Another list ends it after a minute.
+// Each period joins the next, for as long as the list runs; a port that asks for each frame could not walk to there.
+// Another list ends it after a minute.
 TEST(HoldAndRelease, PeriodsThatJoinAreNotWalkedThrough) {
   const GateControlList joining(worked_entries, 1_ms);
   const GateControlList released(std::vector<GateControlEntry>{{release, 0xFF, 1_ms}}, 1_ms);
   GateSchedule gates = running_from_0(joining);
-  for (int ask = 0; ask < 20'000; ++ask) ASSERT_EQ(gates.hold_request(at(50_us + 1_us * ask), 950_us, 0_us), (HoldRequest{true, never}));
+  for (int ask = 0; ask < 20'000; ++ask)
+    ASSERT_EQ(gates.hold_request(at(50_us + 1_us * ask), 950_us, 0_us), (HoldRequest{true, never}));
   gates.request_change(at(30_ms), {&released, at(60'000_ms), {}});
-  for (int ask = 0; ask < 20'000; ++ask) ASSERT_EQ(gates.hold_request(at(50_ms + 1_us * ask), 950_us, 0_us), (HoldRequest{true, at(59'999_ms + 100_us)}));
+  for (int ask = 0; ask < 20'000; ++ask)
+    ASSERT_EQ(gates.hold_request(at(50_ms + 1_us * ask), 950_us, 0_us), (HoldRequest{true, at(59'999_ms + 100_us)}));
 }
 
 // SetGateStates leaves hold as it is: the first entry does not hold in the first cycle, and does from the second on.
@@ -236,13 +243,16 @@ TEST(GateControlList, AThousandEntriesAreFoundAtOnce) {
   }
 }
 
-// As many as 16 bits count: the last one is reached, names itself as what toggles the gate, and there is no further one.
+// As many as 16 bits count: the last one is reached, names itself as what toggles the gate, and there is no further
+// one.
 TEST(GateControlList, TheGreatestNumberOfEntries) {
   std::vector<GateControlEntry> entries;
-  for (std::size_t i = 0; i < CyclicIntervals::entry_limit; ++i) entries.push_back({set, static_cast<GateStates>(i % 2 == 0 ? 0x01 : 0x02), 1_us});
+  for (std::size_t i = 0; i < CyclicIntervals::entry_limit; ++i)
+    entries.push_back({set, static_cast<GateStates>(i % 2 == 0 ? 0x01 : 0x02), 1_us});
   const GateControlList list(entries, 65'536_us);
   GateSchedule gates = running_from_0(list);
-  for (const std::int64_t us : {0, 1, 1'023, 1'024, 1'025, 65'534, 65'535, 65'536, 131'071}) EXPECT_EQ(gates.gate_states(at_ns(us * 1'000)), us % 2 == 0 ? 0x01 : 0x02) << us;
+  for (const std::int64_t us : {0, 1, 1'023, 1'024, 1'025, 65'534, 65'535, 65'536, 131'071})
+    EXPECT_EQ(gates.gate_states(at_ns(us * 1'000)), us % 2 == 0 ? 0x01 : 0x02) << us;
   EXPECT_EQ(list.ahead(65'534, 0).toggled_by, 65'535u);
   EXPECT_EQ(list.ahead(65'535, 0).toggled_by, 0u);
   EXPECT_EQ(list.open_share(1), (OpenShare{32'768_us, 65'536_us}));
@@ -276,7 +286,7 @@ struct Plant {
 
   std::vector<Executor::Change> tick(Ns now, const std::vector<Executor::Config>& requests = {}) {
     const std::vector<Executor::Change> changes = executor.tick(now, requests);
-    for (const TickEntry& entry : executor.take_executed())
+    for (const TickEntry& entry : executor.drain_executed())
       if (entry.operation != set) held = entry.operation == hold;
     return changes;
   }
@@ -317,8 +327,10 @@ void compare_with_future(GateSchedule& gates, const Future& future, Ns duration,
   expect_first("next_hold_change", gates.next_hold_change(at_ns(now)), now + 1, future.end(),
                [&](Ns time) { return future.held[static_cast<std::size_t>(time - now)] != future.held[0]; });
   for (TrafficClass q = 0; q < 3; ++q) {
-    expect_first("close_time", gates.close_time(q, at_ns(now)), now, future.end(), [&](Ns t) { return !future.is_open(q, t); });
-    expect_first("open_time", gates.open_time(q, at_ns(now)), now, future.end(), [&](Ns t) { return future.is_open(q, t); });
+    expect_first("close_time", gates.close_time(q, at_ns(now)), now, future.end(),
+                 [&](Ns t) { return !future.is_open(q, t); });
+    expect_first("open_time", gates.open_time(q, at_ns(now)), now, future.end(),
+                 [&](Ns t) { return future.is_open(q, t); });
     const auto fits = [&](Ns start) {
       if (!future.is_open(q, start)) return false;
       for (Ns time = start; time < start + duration; ++time)
@@ -331,7 +343,8 @@ void compare_with_future(GateSchedule& gates, const Future& future, Ns duration,
     const GateWindow window = gates.window(q, at_ns(now));
     RC_ASSERT(window.from == gates.open_time(q, at_ns(now)));
     if (window.from != never && window.from < at_ns(future.end()))
-      expect_first("window", window.until, window.from.ps() / 1'000, future.end(), [&](Ns t) { return !future.is_open(q, t); });
+      expect_first("window", window.until, window.from.ps() / 1'000, future.end(),
+                   [&](Ns t) { return !future.is_open(q, t); });
   }
   // The MAC is asked to hold at t if a period that holds, advanced at both ends, covers t.
   std::vector<bool> asked(future.held.size(), false);
@@ -344,20 +357,23 @@ void compare_with_future(GateSchedule& gates, const Future& future, Ns duration,
     for (Ns t = std::max<Ns>(from, 0); t < until; ++t) asked[static_cast<std::size_t>(t)] = true;
     begin = end;
   }
-  const HoldRequest request =
-      gates.hold_request(at_ns(now), Duration::from_ps(hold_advance * 1'000), Duration::from_ps(release_advance * 1'000));
+  const HoldRequest request = gates.hold_request(at_ns(now), Duration::from_ps(hold_advance * 1'000),
+                                                 Duration::from_ps(release_advance * 1'000));
   RC_ASSERT(request.hold == asked[0]);
   RC_ASSERT(request.until > at_ns(now));
   const Ns in_sight = static_cast<Ns>(asked.size()) - hold_advance - release_advance - 1;
   for (Ns t = 0; t < in_sight && at_ns(now + t) < request.until; ++t)
     RC_ASSERT(asked[static_cast<std::size_t>(t)] == request.hold);
   const Ns until = request.until.ps() / 1'000 - now;
-  if (until < in_sight && hold_advance + release_advance == 0) RC_ASSERT(asked[static_cast<std::size_t>(until)] != request.hold);
+  if (until < in_sight && hold_advance + release_advance == 0)
+    RC_ASSERT(asked[static_cast<std::size_t>(until)] != request.hold);
 }
 
 // Found by the property below: a window that would begin when the next list, which is closed, takes over.
 TEST(GateSchedule, AWindowThatBeginsWithTheNextListIsNone) {
-  const std::vector<GateControlEntry> first = {{GateOperation::set_gate_states, 0, 6_ns}, {GateOperation::set_gate_states, 1, 1_ns}, {GateOperation::set_gate_states, 0, 1_ns}};
+  const std::vector<GateControlEntry> first = {{GateOperation::set_gate_states, 0, 6_ns},
+                                               {GateOperation::set_gate_states, 1, 1_ns},
+                                               {GateOperation::set_gate_states, 0, 1_ns}};
   const std::vector<GateControlEntry> second = {{GateOperation::set_gate_states, 0, 1_ns}};
   const GateControlList old_list(first, 10_ns), new_list(second, 6_ns);
   GateSchedule gates(0);
@@ -383,24 +399,27 @@ TEST(GateSchedule, AnswersAsTheStateMachinesDo) {
       std::vector<GateControlEntry> entries;
       const Ns length = number(1, 6);
       for (Ns k = 0; k < length; ++k) {
-        const TickEntry entry{static_cast<GateOperation>(number(0, 2)), static_cast<GateStates>(number(0, 7)), number(0, 12)};
+        const TickEntry entry{static_cast<GateOperation>(number(0, 2)), static_cast<GateStates>(number(0, 7)),
+                              number(0, 12)};
         request.config.list.push_back(entry);
         entries.push_back({entry.operation, entry.gate_states, Duration::from_ps(entry.interval_ns * 1'000)});
       }
       request.config.cycle_time = number(1, 40);
       request.config.base_time = number(0, 2) == 0 ? time + number(-60, 0) : time + number(0, 150);
       request.config.extension = number(0, 1) == 0 ? 0 : number(0, 90);
-      RC_LOG() << "request at " << time << ": base " << request.config.base_time << ", cycle " << request.config.cycle_time
-               << ", extension " << request.config.extension << ", list";
+      RC_LOG() << "request at " << time << ": base " << request.config.base_time << ", cycle "
+               << request.config.cycle_time << ", extension " << request.config.extension << ", list";
       for (const TickEntry& entry : request.config.list)
-        RC_LOG() << ' ' << "SHR"[static_cast<int>(entry.operation)] << int{entry.gate_states} << ':' << entry.interval_ns;
+        RC_LOG() << ' ' << "SHR"[static_cast<int>(entry.operation)] << int{entry.gate_states} << ':'
+                 << entry.interval_ns;
       RC_LOG() << '\n';
       lists.emplace_back(entries, Duration::from_ps(request.config.cycle_time * 1'000));
       requests.push_back(std::move(request));
       time += number(0, 3) == 0 ? 0 : number(0, 70);
     }
     const auto admin_gate_states = static_cast<GateStates>(number(0, 7));
-    const Ns stride = number(1, 40), duration = number(0, 30), hold_advance = number(0, 8), release_advance = number(0, 4);
+    const Ns stride = number(1, 40), duration = number(0, 30), hold_advance = number(0, 8),
+             release_advance = number(0, 4);
 
     Plant plant{{}, admin_gate_states, false};
     GateSchedule often(admin_gate_states), seldom(admin_gate_states);

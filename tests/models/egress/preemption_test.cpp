@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sizes of fragments, where a frame may be cut, and the numbers between preamble and data (IEEE 802.3, clause 99).
+#include "models/egress/preemption.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
-
-#include "models/egress/preemption.hpp"
 
 namespace takt::models {
 namespace {
@@ -62,8 +63,8 @@ TEST(Preemption, ACutCountedFromThePreamble) {
   EXPECT_EQ(cut_after(8_B, 123_B, AddFragSize(0)), std::nullopt);
 }
 
-// A frame of 1522 octets cut after 60 octets each time: 60 octets go out as 8 + 64 + 12 = 84 octets of the medium. 24 cuts leave
-// 82 octets, too few for another. Each cut costs 24 octets: 1542 + 24 * 24.
+// A frame of 1522 octets cut after 60 octets each time: 60 octets go out as 8 + 64 + 12 = 84 octets of the medium. 24
+// cuts leave 82 octets, too few for another. Each cut costs 24 octets: 1542 + 24 * 24.
 TEST(Preemption, EachCutCosts24Octets) {
   Octets remaining = 1522_B, on_the_wire = 0_B;
   std::uint32_t cuts = 0;
@@ -79,7 +80,8 @@ TEST(Preemption, EachCutCosts24Octets) {
   EXPECT_EQ(overhead_of_a_cut, 24_B);
 }
 
-// From any instant, what an express frame waits for stays within longest_express_wait, and a frame that is cut is cut legally.
+// From any instant, what an express frame waits for stays within longest_express_wait, and a frame that is cut is cut
+// legally.
 TEST(Preemption, AnyRequestEndsTheFragmentInTime) {
   for (std::uint8_t a = 0; a <= 3; ++a) {
     const AddFragSize size(a);
@@ -101,11 +103,13 @@ TEST(Preemption, AnyRequestEndsTheFragmentInTime) {
 
 TEST(Preemption, FramesAndContinuationsAreNumberedModulo4) {
   FragmentSequence sequence;
-  const std::vector<std::uint8_t> starts = {0xE6, 0x4C, 0x7F, 0xB3, 0xE6}, continuations = {0x61, 0x52, 0x9E, 0x2A, 0x61};
+  const std::vector<std::uint8_t> starts = {0xE6, 0x4C, 0x7F, 0xB3, 0xE6},
+                                  continuations = {0x61, 0x52, 0x9E, 0x2A, 0x61};
   const std::vector<std::uint8_t> counts = {0xE6, 0x4C, 0x7F, 0xB3, 0xE6, 0x4C};
   for (std::size_t frame = 0; frame < starts.size(); ++frame) {
     EXPECT_EQ(sequence.start_frame(), (FragmentHeader{starts[frame], std::nullopt}));
-    for (const std::uint8_t count : counts) EXPECT_EQ(sequence.continue_frame(), (FragmentHeader{continuations[frame], count}));
+    for (const std::uint8_t count : counts)
+      EXPECT_EQ(sequence.continue_frame(), (FragmentHeader{continuations[frame], count}));
   }
 }
 

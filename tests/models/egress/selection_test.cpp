@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which frame goes next: strict priority, arrivals before selection, canonical order of what comes at one instant.
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@ using namespace test;
 
 StreamOptions with_priority(Priority priority) { return {priority, 0, Octets{0}}; }
 
-/// A direct link of 1 Gb/s without cable, and one stream for each priority. A minimum frame takes 576 ns and occupies 672 ns.
+/// A direct link of 1 Gb/s without cable, and one stream for each priority. A minimum frame takes 576 ns and occupies
+/// 672 ns.
 struct DirectLink : Line {
   DirectLink() : Line(0, 1_Gbps, 0_ns) {
     for (Priority priority = 0; priority < 8; ++priority)
@@ -44,8 +46,9 @@ struct DirectLink : Line {
 
 using Arrivals = std::vector<std::pair<Priority, std::int64_t>>;
 
-// 1500 octets tagged: 1522, with preamble 1530: last bit at 12.240 us, medium free at 1542 * 8 ns = 12.336 us. The urgent frame of
-// 100 ns waits until then, and arrives at 12.912 us; what came before it in a lower class goes after it, at 13.008 + 0.576 us.
+// 1500 octets tagged: 1522, with preamble 1530: last bit at 12.240 us, medium free at 1542 * 8 ns = 12.336 us. The
+// urgent frame of 100 ns waits until then, and arrives at 12.912 us; what came before it in a lower class goes after
+// it, at 13.008 + 0.576 us.
 TEST(StrictPriority, ALowerFrameBlocksButIsNotInterrupted) {
   DirectLink link;
   link.send(0, 0_ns, 1500_B);
@@ -54,7 +57,8 @@ TEST(StrictPriority, ALowerFrameBlocksButIsNotInterrupted) {
   EXPECT_EQ(link.arrivals(), (Arrivals{{0, 12'240'000}, {7, 12'912'000}, {2, 13'584'000}}));
 }
 
-// The medium is free at 672 ns. A frame that comes in that very instant counts as present and wins over the waiting lower one.
+// The medium is free at 672 ns. A frame that comes in that very instant counts as present and wins over the waiting
+// lower one.
 TEST(StrictPriority, ArrivalsComeBeforeSelection) {
   DirectLink link;
   link.send(0, 0_ns);
@@ -116,8 +120,8 @@ TEST(StrictPriority, OneClassIsFirstInFirstOut) {
   EXPECT_EQ(link.arrivals(), (Arrivals{{0, 576'000}, {1, 1'248'000}, {7, 1'920'000}}));
 }
 
-/// Two hosts at ports 0 and 1 of a bridge send one frame each at the same instant to a third at port 2. Everything that could
-/// decide which event comes first is varied: the order of nodes, of links and of talkers, and the tie shuffle.
+/// Two hosts at ports 0 and 1 of a bridge send one frame each at the same instant to a third at port 2. Everything that
+/// could decide which event comes first is varied: the order of nodes, of links and of talkers, and the tie shuffle.
 struct Duel {
   bool swap_nodes = false;
   bool swap_links = false;
@@ -128,7 +132,8 @@ struct Duel {
 std::vector<Duration> duel(const Duel& variant, Priority of_port_0, Priority of_port_1) {
   PlanBuilder builder;
   NodeIndex hosts[2];
-  for (const int i : {variant.swap_nodes ? 1 : 0, variant.swap_nodes ? 0 : 1}) hosts[i] = builder.host("host" + std::to_string(i));
+  for (const int i : {variant.swap_nodes ? 1 : 0, variant.swap_nodes ? 0 : 1})
+    hosts[i] = builder.host("host" + std::to_string(i));
   const NodeIndex sw = builder.bridge("sw");
   const NodeIndex target = builder.host("target");
   builder.link(hosts[0], sw);
@@ -136,7 +141,8 @@ std::vector<Duration> duel(const Duel& variant, Priority of_port_0, Priority of_
   builder.link(sw, target);
   const StreamIndex streams[2] = {builder.stream(hosts[0], {target}, with_priority(of_port_0)),
                                   builder.stream(hosts[1], {target}, with_priority(of_port_1))};
-  for (const int i : {variant.swap_talkers ? 1 : 0, variant.swap_talkers ? 0 : 1}) builder.send_at(streams[i], 0_B, {1_us});
+  for (const int i : {variant.swap_talkers ? 1 : 0, variant.swap_talkers ? 0 : 1})
+    builder.send_at(streams[i], 0_B, {1_us});
   if (variant.swap_links) std::swap(builder.plan.links[0], builder.plan.links[1]);
   NetworkRun run(builder.plan, 1, variant.tie_shuffle);
   run.until(1_ms);
@@ -151,7 +157,8 @@ std::vector<Duel> duels() {
   return all;
 }
 
-// Both frames are in the bridge at 1.576 us; the one of ingress port 0 goes first and is there 576 ns later, the other 672 ns after.
+// Both frames are in the bridge at 1.576 us; the one of ingress port 0 goes first and is there 576 ns later, the other
+// 672 ns after.
 TEST(CanonicalOrder, TheLowerIngressPortGoesFirst) {
   for (const Duel& variant : duels()) EXPECT_EQ(duel(variant, 4, 4), (std::vector<Duration>{1'152_ns, 1'824_ns}));
 }
@@ -160,15 +167,18 @@ TEST(CanonicalOrder, ThePriorityDecidesBeforeThePort) {
   for (const Duel& variant : duels()) EXPECT_EQ(duel(variant, 4, 5), (std::vector<Duration>{1'824_ns, 1'152_ns}));
 }
 
-// Two applications of a host send at one instant: the one that was installed first goes first, whatever the events' order.
+// Two applications of a host send at one instant: the one that was installed first goes first, whatever the events'
+// order.
 TEST(CanonicalOrder, ApplicationsOfAHost) {
   for (const std::uint64_t key : {0ULL, 1ULL, 2ULL, 3ULL, 0xDEADBEEFULL}) {
     Line line(0, 1_Gbps, 0_ns);
     const StreamIndex one = line.builder.stream(line.talker, {line.listener});
     const StreamIndex two = line.builder.stream(line.talker, {line.listener});
     NetworkRun run(line.builder.plan, 1, key);
-    install<Sender>(*run.network, line.talker, "first", std::vector<Sender::Item>{{local(1_us), two, 8}, {local(1_us), one, 8}});
-    install<Sender>(*run.network, line.talker, "second", std::vector<Sender::Item>{{local(1_us), one, 8}, {local(1_us), two, 8}});
+    install<Sender>(*run.network, line.talker, "first",
+                    std::vector<Sender::Item>{{local(1_us), two, 8}, {local(1_us), one, 8}});
+    install<Sender>(*run.network, line.talker, "second",
+                    std::vector<Sender::Item>{{local(1_us), one, 8}, {local(1_us), two, 8}});
     const Listener& listener = listen(*run.network, line.listener, {one, two});
     run.until(1_ms);
     std::vector<StreamIndex> order;

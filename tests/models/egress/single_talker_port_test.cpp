@@ -1,4 +1,6 @@
-// A port that one process alone sends by: what it sends is put on the medium beforehand, and nobody sees that, whenever one looks.
+// SPDX-License-Identifier: Apache-2.0
+// A port that one process alone sends by: what it sends is put on the medium beforehand, and nobody sees that, whenever
+// one looks.
 #include <gtest/gtest.h>
 
 #include "tests/models/network_fixture.hpp"
@@ -22,7 +24,8 @@ struct Seen {
 };
 
 struct Plant {
-  /// 100 Mbit/s, so that frames of 100 to 1400 octets wait for each other; to a host, or to a bridge with one behind it.
+  /// 100 Mbit/s, so that frames of 100 to 1400 octets wait for each other; to a host, or to a bridge with one behind
+  /// it.
   explicit Plant(const Distribution& transmit, bool to_bridge, const PortConfig& config = {}) {
     OsLatency latency;
     latency.transmit = transmit;
@@ -49,23 +52,34 @@ struct Plant {
     if (is_recorded) run.simulation.set_trace(&trace);
     std::vector<Sender::Item> items;
     for (int i = 0; i < 60; ++i)
-      for (int k = 0; k <= i % 5; ++k) items.push_back({local(50_us * i), k % 2 == 0 ? urgent : other, 100 + static_cast<std::size_t>(i * 97 + k * 310) % 1300});
+      for (int k = 0; k <= i % 5; ++k)
+        items.push_back(
+            {local(50_us * i), k % 2 == 0 ? urgent : other, 100 + static_cast<std::size_t>(i * 97 + k * 310) % 1300});
     install<Sender>(*run.network, talker, "sender", items);
-    install<Sender>(*run.network, listener, "answers", std::vector<Sender::Item>{{local(70_us), back, 200}, {local(71_us), back, 200}});
+    install<Sender>(*run.network, listener, "answers",
+                    std::vector<Sender::Item>{{local(70_us), back, 200}, {local(71_us), back, 200}});
     run.until(end);
     const EgressPort& port = run.port(talker, 0);
     if (ahead != nullptr) *ahead = port.link().frames_sent() - port.frames_sent();
     const TrafficClass q = port.config().traffic_class_of_priority[5];
-    return {run.digest(), run.simulation.event_count(), run.stream(urgent).delivered + run.stream(other).delivered, port.frames_sent(), port.wire_octets_sent(), port.queues().peak_frames(q), port.queues().peak_octets(q)};
+    return {run.digest(),
+            run.simulation.event_count(),
+            run.stream(urgent).delivered + run.stream(other).delivered,
+            port.frames_sent(),
+            port.wire_octets_sent(),
+            port.queues().peak_frames(q),
+            port.queues().peak_octets(q)};
   }
   PlanBuilder builder;
   NodeIndex talker, listener;
   StreamIndex urgent, other, back;
 };
 
-// A recorder is told of each step at its time, so a recorded run takes all steps. At many ends, most of them with frames that are still to be sent.
+// A recorder is told of each step at its time, so a recorded run takes all steps. At many ends, most of them with
+// frames that are still to be sent.
 TEST(SingleTalkerPort, SendsAsAPortDoes) {
-  for (const Distribution& transmit : {Distribution::constant({}), Distribution::constant(9_us), Distribution::uniform(0_us, 90_us)}) {
+  for (const Distribution& transmit :
+       {Distribution::constant({}), Distribution::constant(9_us), Distribution::uniform(0_us, 90_us)}) {
     for (const bool to_bridge : {false, true}) {
       const Plant plant(transmit, to_bridge);
       std::uint32_t peak = 0;
@@ -76,8 +90,9 @@ TEST(SingleTalkerPort, SendsAsAPortDoes) {
         const Seen seen = plant.run(end, false, 0, &ahead);
         most_ahead = std::max(most_ahead, ahead);
         const Seen recorded = plant.run(end, true);
-        ASSERT_EQ(seen, recorded) << i << ": " << seen.frames << " and " << recorded.frames << " frames, peaks " << seen.peak_frames << " and " << recorded.peak_frames << ", events " << seen.events << " and "
-                                  << recorded.events;
+        ASSERT_EQ(seen, recorded) << i << ": " << seen.frames << " and " << recorded.frames << " frames, peaks "
+                                  << seen.peak_frames << " and " << recorded.peak_frames << ", events " << seen.events
+                                  << " and " << recorded.events;
         ASSERT_EQ(plant.run(end, false, 77).digest, seen.digest);
         peak = std::max(peak, seen.peak_frames);
       }
@@ -108,7 +123,8 @@ TEST(SingleTalkerPort, AnybodyMayBeginToRecord) {
   for (int i = 1; i < 10; ++i) EXPECT_EQ(digest_of(61_us * i), digest) << i;
 }
 
-// Two classes may overtake each other, a limit may drop frames, and a second sender may come in between: then a port decides as ever.
+// Two classes may overtake each other, a limit may drop frames, and a second sender may come in between: then a port
+// decides as ever.
 TEST(SingleTalkerPort, IsNoneWhereThereIsSomethingToDecide) {
   const auto same = [](const Plant& plant, const char* what) {
     for (int i = 0; i < 40; ++i) {

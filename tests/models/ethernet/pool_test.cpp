@@ -1,11 +1,11 @@
-#include "models/ethernet/traffic.hpp"
-
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <map>
 #include <set>
 #include <vector>
 
+#include "models/ethernet/traffic.hpp"
 #include "sim/random.hpp"
 
 namespace takt::models {
@@ -71,7 +71,8 @@ void keeps_what_was_put_in(Access&& value_of) {
       ASSERT_EQ(oracle.count(handle.value), 0u) << "handed out twice";
       oracle[handle.value] = value_of(pool[handle]) = chance.next();
     } else {
-      auto victim = oracle.lower_bound(static_cast<std::uint32_t>(chance.below(oracle.rbegin()->first + std::uint64_t{1})));
+      auto victim =
+          oracle.lower_bound(static_cast<std::uint32_t>(chance.below(oracle.rbegin()->first + std::uint64_t{1})));
       ASSERT_EQ(value_of(pool[FrameIndex{victim->first}]), victim->second);
       pool.free(FrameIndex{victim->first});
       oracle.erase(victim);

@@ -1,4 +1,6 @@
-// What one frame occupies, byte-exact and as one table: frame with VLAN tag and R-TAG, its fragments when it is cut, gaps.
+// SPDX-License-Identifier: Apache-2.0
+// What one frame occupies, byte-exact and as one table: frame with VLAN tag and R-TAG, its fragments when it is cut,
+// gaps.
 #include <gtest/gtest.h>
 
 #include "models/egress/preemption.hpp"
@@ -7,8 +9,9 @@
 namespace takt::models {
 namespace {
 
-// IEEE 802.3 3.1.1: header 14 (DA 6, SA 6, EtherType 2), FCS 4, at least 64 in all. VLAN tag 4 (802.1Q 9.6), R-TAG 6 (802.1CB 7.8):
-// both stand before the data and count towards the 64. On the medium: preamble and SFD 8, inter-packet gap 12.
+// IEEE 802.3 3.1.1: header 14 (DA 6, SA 6, EtherType 2), FCS 4, at least 64 in all. VLAN tag 4 (802.1Q 9.6), R-TAG 6
+// (802.1CB 7.8): both stand before the data and count towards the 64. On the medium: preamble and SFD 8, inter-packet
+// gap 12.
 struct SizeRow {
   std::uint32_t msdu;
   std::uint32_t plain, tagged, r_tagged, both;  // DA to FCS
@@ -16,16 +19,16 @@ struct SizeRow {
 };
 constexpr SizeRow size_rows[] = {
     {0, 64, 64, 64, 64, 84},
-    {36, 64, 64, 64, 64, 84},          // 14 + 4 + 6 + 36 + 4 = 64, nothing to pad with both tags
+    {36, 64, 64, 64, 64, 84},  // 14 + 4 + 6 + 36 + 4 = 64, nothing to pad with both tags
     {37, 64, 64, 64, 65, 85},
     {40, 64, 64, 64, 68, 88},
-    {41, 64, 64, 65, 69, 89},          // 14 + 6 + 41 + 4 = 65
+    {41, 64, 64, 65, 69, 89},  // 14 + 6 + 41 + 4 = 65
     {42, 64, 64, 66, 70, 90},
     {43, 64, 65, 67, 71, 91},
     {46, 64, 68, 70, 74, 94},
     {47, 65, 69, 71, 75, 95},
     {100, 118, 122, 124, 128, 148},
-    {128, 146, 150, 152, 156, 176},    // 100 octets of user data and 28 of IPv4 and UDP
+    {128, 146, 150, 152, 156, 176},  // 100 octets of user data and 28 of IPv4 and UDP
     {1228, 1246, 1250, 1252, 1256, 1276},
     {1500, 1518, 1522, 1524, 1528, 1548},
 };
@@ -61,8 +64,9 @@ TEST(SizesTable, Parts) {
   EXPECT_EQ(minimum_final_fragment.count, 64u);
 }
 
-// A frame that is cut once: `data` octets, then the rest. Preamble 8, mCRC 4 and gap 12 around the first part, preamble 8 and gap 12
-// around the second, which ends with the frame's own FCS. The cut costs 8 + 4 + 12 = 24 octets whatever its place.
+// A frame that is cut once: `data` octets, then the rest. Preamble 8, mCRC 4 and gap 12 around the first part, preamble
+// 8 and gap 12 around the second, which ends with the frame's own FCS. The cut costs 8 + 4 + 12 = 24 octets whatever
+// its place.
 struct CutRow {
   std::uint8_t add_frag_size;
   std::uint32_t frame;       // DA to FCS
@@ -72,29 +76,24 @@ struct CutRow {
   std::uint32_t last_wire;   // what the rest takes
 };
 constexpr CutRow cut_rows[] = {
-    {0, 1522, 0, 60, 84, 1482},       // at once: the least fragment, 60 + 4 = 64 octets on the medium between preamble and gap
-    {0, 1522, 68, 60, 84, 1482},      // 8 + 60 octets are out
-    {0, 1522, 125, 117, 141, 1425},   // scenarios/validation/preemption.json
-    {0, 1522, 1466, 1458, 1482, 84},  // the latest cut: 64 octets are left
-    {0, 1522, 1467, 0, 1542, 0},
-    {0, 124, 0, 60, 84, 84},          // the shortest frame that can be cut
-    {0, 123, 0, 0, 143, 0},
-    {0, 64, 0, 0, 84, 0},
-    {1, 1522, 0, 124, 148, 1418},
-    {1, 188, 0, 124, 148, 84},
-    {1, 187, 0, 0, 207, 0},
-    {2, 1522, 0, 188, 212, 1354},
-    {2, 252, 0, 188, 212, 84},
-    {2, 251, 0, 0, 271, 0},
-    {3, 1522, 0, 252, 276, 1290},
-    {3, 316, 0, 252, 276, 84},
-    {3, 315, 0, 0, 335, 0},
-    {3, 1528, 1000, 992, 1016, 556},  // with VLAN tag and R-TAG
+    {0, 1522, 0, 60, 84, 1482},   // at once: the least fragment, 60 + 4 = 64 octets on the medium between preamble and
+                                  // gap
+    {0, 1522, 68, 60, 84, 1482},  // 8 + 60 octets are out
+    {0, 1522, 125, 117, 141, 1425},                            // scenarios/validation/preemption.json
+    {0, 1522, 1466, 1458, 1482, 84},                           // the latest cut: 64 octets are left
+    {0, 1522, 1467, 0, 1542, 0},     {0, 124, 0, 60, 84, 84},  // the shortest frame that can be cut
+    {0, 123, 0, 0, 143, 0},          {0, 64, 0, 0, 84, 0},
+    {1, 1522, 0, 124, 148, 1418},    {1, 188, 0, 124, 148, 84},
+    {1, 187, 0, 0, 207, 0},          {2, 1522, 0, 188, 212, 1354},
+    {2, 252, 0, 188, 212, 84},       {2, 251, 0, 0, 271, 0},
+    {3, 1522, 0, 252, 276, 1290},    {3, 316, 0, 252, 276, 84},
+    {3, 315, 0, 0, 335, 0},          {3, 1528, 1000, 992, 1016, 556},  // with VLAN tag and R-TAG
 };
 
 TEST(SizesTable, Fragments) {
   for (const CutRow& row : cut_rows) {
-    SCOPED_TRACE(testing::Message() << "addFragSize " << int{row.add_frag_size} << ", " << row.frame << " octets, asked at " << row.wire);
+    SCOPED_TRACE(testing::Message() << "addFragSize " << int{row.add_frag_size} << ", " << row.frame
+                                    << " octets, asked at " << row.wire);
     const auto data = cut_after(Octets{row.wire}, Octets{row.frame}, AddFragSize(row.add_frag_size));
     EXPECT_EQ(data.value_or(Octets{0}).count, row.data);
     if (!data) {

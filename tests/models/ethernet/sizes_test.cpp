@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/ethernet/sizes.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,9 @@ TEST(Sizes, PublishedFrames) {
 
 // IPv4 header 20 and UDP header 8: 18 octets of user data fill the minimum frame, 1472 the largest.
 TEST(Sizes, Udp) {
-  const auto udp_frame = [](std::uint32_t data, bool tagged) { return frame_length(ipv4_and_udp_headers + Octets{data}, tagged).count; };
+  const auto udp_frame = [](std::uint32_t data, bool tagged) {
+    return frame_length(ipv4_and_udp_headers + Octets{data}, tagged).count;
+  };
   EXPECT_EQ(udp_frame(0, false), 64u);
   EXPECT_EQ(udp_frame(18, false), 64u);
   EXPECT_EQ(udp_frame(19, false), 65u);

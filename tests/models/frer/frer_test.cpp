@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The worked example of the reference, each rule by itself, and against a history that is a plain list of bits.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -54,8 +55,8 @@ TEST(SequenceGeneration, CountsFromZeroAndWraps) {
   EXPECT_EQ(generation.resets(), 1u);
 }
 
-// H = 4: 10 pass, 10 discard, 12 pass out of order, 11 pass out of order, 11 discard, 17 rogue. The two shifts for 12 push out zeros of the
-// empty history.
+// H = 4: 10 pass, 10 discard, 12 pass out of order, 11 pass out of order, 11 discard, 17 rogue. The two shifts for 12
+// push out zeros of the empty history.
 TEST(VectorRecovery, WorkedExample) {
   SequenceRecovery recovery(vector_of(4));
   EXPECT_EQ(recovery.recover(10), passed);
@@ -224,8 +225,8 @@ class ListRecovery {
 
 TEST(VectorRecovery, AgreesWithAListOfBits) {
   const bool agrees = rc::check("vector recovery = pseudocode", [] {
-    const std::uint32_t length =
-        *rc::gen::oneOf(rc::gen::inRange<std::uint32_t>(2, 9), rc::gen::element<std::uint32_t>(63, 64, 65, 1'023, 1'024));
+    const std::uint32_t length = *rc::gen::oneOf(rc::gen::inRange<std::uint32_t>(2, 9),
+                                                 rc::gen::element<std::uint32_t>(63, 64, 65, 1'023, 1'024));
     SequenceRecovery recovery(vector_of(length));
     ListRecovery oracle(length);
     const int reach = static_cast<int>(length) + 2;
@@ -253,8 +254,8 @@ TEST(VectorRecovery, AgreesWithAListOfBits) {
   EXPECT_TRUE(agrees);
 }
 
-// What FRER is for: two lossy copies, the second delayed by less than the history. Every number that came at least once passes exactly
-// once, and the lost counter is the number of those that never came and have left the history.
+// What FRER is for: two lossy copies, the second delayed by less than the history. Every number that came at least once
+// passes exactly once, and the lost counter is the number of those that never came and have left the history.
 TEST(VectorRecovery, EachNumberPassesOnce) {
   const bool holds = rc::check("two lossy paths: exactly once", [] {
     const std::uint32_t length = *rc::gen::element<std::uint32_t>(8, 64, 256);

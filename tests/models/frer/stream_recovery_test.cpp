@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Splitting and recovery with their timers, and the stacks of hosts.
 #include <gtest/gtest.h>
 
@@ -48,8 +49,8 @@ bool receive(Bench& bench, StreamRecovery& recovery, AddressIndex address, Seque
   return passed.has_value();
 }
 
-// A sender restarts and counts from 0 again. Until the time-out its numbers are rogues; the time-out counts from the last frame that
-// passed, and at its very instant any number is taken.
+// A sender restarts and counts from 0 again. Until the time-out its numbers are rogues; the time-out counts from the
+// last frame that passed, and at its very instant any number is taken.
 TEST(StreamRecovery, TheResetTimerRunsOutWithoutAnEvent) {
   Bench bench;
   StreamRecovery recovery(recovery_config());
@@ -73,8 +74,9 @@ TEST(StreamRecovery, AResetThatNoFrameFollowsIsCountedToo) {
   EXPECT_EQ(recovery.counters().resets, 2u);  // it does not run again before a frame passes
 }
 
-// Both paths until 5.5 s, then one. Tests at 2 and 4 s find nothing (the first follows the reset at the start, which tells nothing);
-// at 6 s four copies are missing (the frame of that instant comes after the test). Latent errors are forgiven at 30 s: then the difference starts anew.
+// Both paths until 5.5 s, then one. Tests at 2 and 4 s find nothing (the first follows the reset at the start, which
+// tells nothing); at 6 s four copies are missing (the frame of that instant comes after the test). Latent errors are
+// forgiven at 30 s: then the difference starts anew.
 TEST(StreamRecovery, LatentErrorsAreFound) {
   Bench bench;
   StreamRecoveryConfig config = recovery_config();
@@ -111,11 +113,13 @@ TEST(StreamRecovery, AnswersDoNotDependOnWhenTheyAreAsked) {
       if (i % 37 < 20) receive(bench, recovery, member_b, static_cast<SequenceNumber>(i), t);
     }
     recovery.catch_up(LocalTime() + 500_ms);
-    return std::tuple(recovery.counters().passed_packets, recovery.counters().discarded_packets, recovery.counters().resets,
-                      recovery.latent_error_detection()->errors(), recovery.latent_error_detection()->resets(), recovery.first_latent_error());
+    return std::tuple(recovery.counters().passed_packets, recovery.counters().discarded_packets,
+                      recovery.counters().resets, recovery.latent_error_detection()->errors(),
+                      recovery.latent_error_detection()->resets(), recovery.first_latent_error());
   };
   EXPECT_EQ(run(false), run(true));
-  EXPECT_EQ(std::get<2>(run(false)), 12u);  // at the start, in each of the ten gaps that end before 400 ms, and at the end
+  EXPECT_EQ(std::get<2>(run(false)),
+            12u);  // at the start, in each of the ten gaps that end before 400 ms, and at the end
 }
 
 TEST(HostRedundancy, ATalkerSplitsItsStreamsOverItsInterfaces) {
@@ -167,7 +171,8 @@ TEST(HostRedundancy, FindsItsStreamAmongFewAndMany) {
   std::vector<StreamIndex> added;
   for (int i = 0; i < 12; ++i) {
     const StreamIndex stream = bench.traffic.add_stream(Stream{});
-    EXPECT_TRUE(talker.send(bench.traffic, bench.traffic.produce(stream, Octets{100}, sim::TrueTime())).empty());   // not split here
+    EXPECT_TRUE(talker.send(bench.traffic, bench.traffic.produce(stream, Octets{100}, sim::TrueTime()))
+                    .empty());  // not split here
     EXPECT_EQ(talker.find(stream), nullptr);
     EXPECT_EQ(listener.find(stream), nullptr);
     if (i % 3 == 2) continue;

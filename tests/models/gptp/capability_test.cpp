@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Signaling with the gPTP-capable TLV: who has not heard of it takes no time from the neighbour.
 #include <gtest/gtest.h>
 
@@ -37,7 +38,9 @@ TEST(GptpCapable, EndsNineIntervalsAfterTheLastWord) {
   harness.run(20_s);
   EXPECT_TRUE(harness.station(0).machine.is_capable(0, 1));
   EXPECT_TRUE(harness.station(1).machine.is_capable(0, 1));
-  harness.is_lost = [](const Message& message) { return std::holds_alternative<Signaling>(message) && header_of(message).source.clock == Harness::identity(1); };
+  harness.is_lost = [](const Message& message) {
+    return std::holds_alternative<Signaling>(message) && header_of(message).source.clock == Harness::identity(1);
+  };
   harness.run(7'900_ms);
   EXPECT_TRUE(harness.station(0).machine.is_capable(0, 1));
   harness.run(1'200_ms);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/codec.hpp"
 
 #include <gtest/gtest.h>
@@ -59,33 +60,71 @@ std::vector<Message> one_of_each() {
   tracked.drift = DriftTracking{{7, 8}, requester.clock, 3, -5};
   Sync tracked_sync = one_step;
   tracked_sync.one_step->drift = tracked.drift;
-  return {two_step, one_step, follow_up, PdelayReq{header(7, 0)}, PdelayResp{header(7, 0), {1, 2}, requester},
-          PdelayRespFollowUp{header(7, 0), {3, 4}, requester}, announce, tracked, tracked_sync, Signaling{header(7, 0x7F)}, Signaling{header(8, 0x7F), requester, GptpCapable{-3, 1}},
-          Signaling{header(9, 0x7F), requester, std::nullopt, IntervalRequest{-128, -4, 127, 3}}, Signaling{header(10, 0x7F), requester, GptpCapable{0, 0}, IntervalRequest{0, 126, -7}}};
+  return {two_step,
+          one_step,
+          follow_up,
+          PdelayReq{header(7, 0)},
+          PdelayResp{header(7, 0), {1, 2}, requester},
+          PdelayRespFollowUp{header(7, 0), {3, 4}, requester},
+          announce,
+          tracked,
+          tracked_sync,
+          Signaling{header(7, 0x7F)},
+          Signaling{header(8, 0x7F), requester, GptpCapable{-3, 1}},
+          Signaling{header(9, 0x7F), requester, std::nullopt, IntervalRequest{-128, -4, 127, 3}},
+          Signaling{header(10, 0x7F), requester, GptpCapable{0, 0}, IntervalRequest{0, 126, -7}}};
 }
 
 // By hand from 10.6.4.4: TLV type, length 12, 00-80-C2, subtype 4, the interval, flags, four octets that are reserved.
 TEST(Codec, SignalingSaysThatGptpIsSpoken) {
   EXPECT_EQ(hex(Signaling{header(7, 0x7F), PortIdentity::all(), GptpCapable{-1, 0}}),
-            "1c12003c" "00000008" "0000000000000000" "00000000" "001122fffe3344550002" "0007057f"
-            "ffffffffffffffffffff" "8000000c" "0080c2000004" "ff0000000000");
+            "1c12003c"
+            "00000008"
+            "0000000000000000"
+            "00000000"
+            "001122fffe3344550002"
+            "0007057f"
+            "ffffffffffffffffffff"
+            "8000000c"
+            "0080c2000004"
+            "ff0000000000");
 }
 
-// By hand from 10.6.4.3: TLV type, length 12, 00-80-C2, subtype 2, the intervals of Pdelay_Req, Sync and Announce, flags, two octets that are reserved.
+// By hand from 10.6.4.3: TLV type, length 12, 00-80-C2, subtype 2, the intervals of Pdelay_Req, Sync and Announce,
+// flags, two octets that are reserved.
 TEST(Codec, SignalingAsksForIntervals) {
   EXPECT_EQ(hex(Signaling{header(7, 0x7F), requester, std::nullopt, IntervalRequest{-128, -4, 127}}),
-            "1c12003c" "00000008" "0000000000000000" "00000000" "001122fffe3344550002" "0007057f"
-            "aabbccfffeddee010001" "0003000c" "0080c2000002" "80fc7f07" "0000");
+            "1c12003c"
+            "00000008"
+            "0000000000000000"
+            "00000000"
+            "001122fffe3344550002"
+            "0007057f"
+            "aabbccfffeddee010001"
+            "0003000c"
+            "0080c2000002"
+            "80fc7f07"
+            "0000");
 }
 
-// The TLV behind that of the Follow_Up: type 3, 32 octets, 00-80-C2, subtype 6; the egress with 16 bits below a nanosecond, whose clock it is, three steps, the drift.
+// The TLV behind that of the Follow_Up: type 3, 32 octets, 00-80-C2, subtype 6; the egress with 16 bits below a
+// nanosecond, whose clock it is, three steps, the drift.
 TEST(Codec, DriftTracking) {
   FollowUp follow_up{header(1, -3), {5, 6}, information()};
   const std::string without = hex(follow_up);
   follow_up.drift = DriftTracking{{7, 8}, requester.clock, 3, -5};
   const std::string with = hex(follow_up);
   ASSERT_EQ(with.size(), without.size() + 2 * 36);
-  EXPECT_EQ(with.substr(without.size()), "00030020" "0080c2" "000006" "000000000007" "00000008" "0000" "aabbccfffeddee01" "0003" "fffffffb");
+  EXPECT_EQ(with.substr(without.size()),
+            "00030020"
+            "0080c2"
+            "000006"
+            "000000000007"
+            "00000008"
+            "0000"
+            "aabbccfffeddee01"
+            "0003"
+            "fffffffb");
 }
 
 // 802.1AS-2020 tables 10-7, 11-8 to 11-14: the numbers of octets of the PTP part.
@@ -97,45 +136,108 @@ TEST(Codec, Lengths) {
 
 TEST(Codec, OctetsOfSync) {
   EXPECT_EQ(hex(one_of_each()[0]),
-            "10"                    // gPTP, Sync
-            "12"                    // version 2.1
-            "002c" "14" "00"        // 44 octets, domain 20, minorSdoId
-            "0208"                  // two-step, PTP time scale
-            "0000000000000000"      // correction
+            "10"  // gPTP, Sync
+            "12"  // version 2.1
+            "002c"
+            "14"
+            "00"                // 44 octets, domain 20, minorSdoId
+            "0208"              // two-step, PTP time scale
+            "0000000000000000"  // correction
             "00000000"
-            "001122fffe334455" "0002"
-            "0001" "00" "fd"        // sequence, control, log interval -3
+            "001122fffe334455"
+            "0002"
+            "0001"
+            "00"
+            "fd"  // sequence, control, log interval -3
             "00000000000000000000");
 }
 
 TEST(Codec, OctetsOfOneStepSync) {
   EXPECT_EQ(hex(one_of_each()[1]),
-            "1012004c00000008" "ffffffffffff0000" "00000000" "001122fffe3344550002" "000200fd"
-            "0123456789ab" "3b9ac9ff"
-            "0003" "001c" "0080c2" "000001" "fffffffe" "0003" "000000000000000000000007" "00000009");
+            "1012004c00000008"
+            "ffffffffffff0000"
+            "00000000"
+            "001122fffe3344550002"
+            "000200fd"
+            "0123456789ab"
+            "3b9ac9ff"
+            "0003"
+            "001c"
+            "0080c2"
+            "000001"
+            "fffffffe"
+            "0003"
+            "000000000000000000000007"
+            "00000009");
 }
 
 TEST(Codec, OctetsOfFollowUp) {
   EXPECT_EQ(hex(one_of_each()[2]),
-            "1812004c00000008" "0000000001f44000" "00000000" "001122fffe3344550002" "000102fd"
-            "000000000005" "00000006"
-            "0003" "001c" "0080c2" "000001" "fffffffe" "0003" "000000000000000000000007" "00000009");
+            "1812004c00000008"
+            "0000000001f44000"
+            "00000000"
+            "001122fffe3344550002"
+            "000102fd"
+            "000000000005"
+            "00000006"
+            "0003"
+            "001c"
+            "0080c2"
+            "000001"
+            "fffffffe"
+            "0003"
+            "000000000000000000000007"
+            "00000009");
 }
 
 TEST(Codec, OctetsOfPdelay) {
-  EXPECT_EQ(hex(one_of_each()[3]), "1212003600000008" "0000000000000000" "00000000" "001122fffe3344550002" "00070500"
-                                   "0000000000000000000000000000000000000000");
-  EXPECT_EQ(hex(one_of_each()[4]), "1312003600000208" "0000000000000000" "00000000" "001122fffe3344550002" "00070500"
-                                   "000000000001" "00000002" "aabbccfffeddee010001");
-  EXPECT_EQ(hex(one_of_each()[5]), "1a12003600000008" "0000000000000000" "00000000" "001122fffe3344550002" "00070500"
-                                   "000000000003" "00000004" "aabbccfffeddee010001");
+  EXPECT_EQ(hex(one_of_each()[3]),
+            "1212003600000008"
+            "0000000000000000"
+            "00000000"
+            "001122fffe3344550002"
+            "00070500"
+            "0000000000000000000000000000000000000000");
+  EXPECT_EQ(hex(one_of_each()[4]),
+            "1312003600000208"
+            "0000000000000000"
+            "00000000"
+            "001122fffe3344550002"
+            "00070500"
+            "000000000001"
+            "00000002"
+            "aabbccfffeddee010001");
+  EXPECT_EQ(hex(one_of_each()[5]),
+            "1a12003600000008"
+            "0000000000000000"
+            "00000000"
+            "001122fffe3344550002"
+            "00070500"
+            "000000000003"
+            "00000004"
+            "aabbccfffeddee010001");
 }
 
 TEST(Codec, OctetsOfAnnounce) {
   EXPECT_EQ(hex(one_of_each()[6]),
-            "1b12005400000008" "0000000000000000" "00000000" "001122fffe3344550002" "ffff0500"
-            "00000000000000000000" "0025" "00" "f8" "f8fe436a" "f8" "aabbccfffeddee01" "0001" "a0"
-            "0008" "0010" "aabbccfffeddee01" "001122fffe334455");
+            "1b12005400000008"
+            "0000000000000000"
+            "00000000"
+            "001122fffe3344550002"
+            "ffff0500"
+            "00000000000000000000"
+            "0025"
+            "00"
+            "f8"
+            "f8fe436a"
+            "f8"
+            "aabbccfffeddee01"
+            "0001"
+            "a0"
+            "0008"
+            "0010"
+            "aabbccfffeddee01"
+            "001122fffe334455");
 }
 
 TEST(Codec, DecodesWhatItEncodes) {
@@ -158,8 +260,9 @@ TEST(Codec, NothingThatIsCutShortIsAMessage) {
       octets[2] = static_cast<std::byte>(length >> 8);
       octets[3] = static_cast<std::byte>(length & 0xFF);
       const bool is_signaling = std::holds_alternative<Signaling>(message);
-      const bool is_whole = (octets.size() == 112 && length == 76)                        // but for Drift_Tracking, which need not be there
-                            || (is_signaling && length >= 44 && (length - 44) % 16 == 0);  // nor need the TLVs of Signaling
+      const bool is_whole =
+          (octets.size() == 112 && length == 76)  // but for Drift_Tracking, which need not be there
+          || (is_signaling && length >= 44 && (length - 44) % 16 == 0);  // nor need the TLVs of Signaling
       EXPECT_EQ(decode(octets).has_value(), is_whole) << length;
     }
   }
@@ -187,7 +290,8 @@ TEST(Codec, RefusesWhatIsNotUnderstood) {
 TEST(Codec, SkipsTlvsThatItDoesNotKnow) {
   std::vector<std::byte> octets;
   encode(one_of_each()[2], octets);
-  for (const int octet : {0x00, 0x03, 0x00, 0x06, 0x00, 0x80, 0xC2, 0x00, 0x00, 0x06}) octets.push_back(static_cast<std::byte>(octet));
+  for (const int octet : {0x00, 0x03, 0x00, 0x06, 0x00, 0x80, 0xC2, 0x00, 0x00, 0x06})
+    octets.push_back(static_cast<std::byte>(octet));
   octets[3] = static_cast<std::byte>(octets.size());
   EXPECT_EQ(decode(octets), one_of_each()[2]);
 }
@@ -206,7 +310,8 @@ TEST(CodecProperty, AnyOctetsAreSafeAndWhatIsAMessageStaysOne) {
   for (int round = 0; round < 200'000; ++round) {
     std::vector<std::byte> octets;
     encode(one_of_each()[chance.below(7)], octets);
-    for (std::uint64_t changes = chance.below(6); changes > 0; --changes) octets[chance.below(octets.size())] = static_cast<std::byte>(chance.below(256));
+    for (std::uint64_t changes = chance.below(6); changes > 0; --changes)
+      octets[chance.below(octets.size())] = static_cast<std::byte>(chance.below(256));
     if (chance.below(4) == 0) octets.resize(chance.below(octets.size() + 8));
     const std::optional<Message> message = decode(octets);
     if (!message) continue;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several gPTP nodes on ideal links: what a simulated network does for the machines, in 200 lines.
 #pragma once
 
@@ -36,7 +37,11 @@ class Harness {
 
   struct Station {
     explicit Station(const NodeSetUp& set_up_, const NodeConfig& config, std::uint64_t seed, const std::string& name)
-        : set_up(set_up_), machine(config), oscillator(set_up_.oscillator, seed, name), target({.servo = set_up_.servo}), chance(seed, name, "timestamps") {
+        : set_up(set_up_),
+          machine(config),
+          oscillator(set_up_.oscillator, seed, name),
+          target({.servo = set_up_.servo}),
+          chance(seed, name, "timestamps") {
       if (set_up.standby) standby.emplace(*set_up.standby, target_config());
     }
     /// The instance that disciplines the clock.
@@ -45,7 +50,7 @@ class Harness {
     NodeSetUp set_up;
     Node machine;
     Oscillator oscillator;
-    LocalClock free;       // timestamps and timers
+    LocalClock free;  // timestamps and timers
     LocalClock disciplined;
     ClockTarget target;
     std::optional<HotStandby> standby;
@@ -70,11 +75,14 @@ class Harness {
     peers_[a].push_back({b, static_cast<PortNumber>(peers_[b].size() + 1), forth});
     peers_[b].push_back({a, static_cast<PortNumber>(peers_[a].size()), back.value_or(forth)});
   }
-  static ClockIdentity identity(std::size_t node) { return ClockIdentity::from_number(0x0200'00FF'FE00'0000 + node + 1); }
+  static ClockIdentity identity(std::size_t node) {
+    return ClockIdentity::from_number(0x0200'00FF'FE00'0000 + node + 1);
+  }
 
   void start(std::uint64_t seed = 1) {
     for (std::size_t i = 0; i < set_ups_.size(); ++i) {
-      const NodeConfig config{identity(i), std::vector<LinkDelayConfig>(peers_[i].size(), set_ups_[i].link), set_ups_[i].instances, set_ups_[i].log_gptp_capable_interval};
+      const NodeConfig config{identity(i), std::vector<LinkDelayConfig>(peers_[i].size(), set_ups_[i].link),
+                              set_ups_[i].instances, set_ups_[i].log_gptp_capable_interval};
       stations_.push_back(std::make_unique<Station>(set_ups_[i], config, seed, "node" + std::to_string(i)));
       Station& station = *stations_.back();
       for (const Peer& peer : peers_[i]) {
@@ -206,7 +214,9 @@ class Harness {
       if (const auto* const change = std::get_if<GrandmasterChange>(&output)) {
         if (change->instance == 0) s.grandmasters.push_back(change->grandmaster);
         const PtpInstance& changed = s.machine.instance(change->instance);
-        if (s.standby) s.standby->set_grandmaster(static_cast<HotStandbyRole>(change->instance), changed.is_grandmaster() && changed.grandmaster_present(), local(i));
+        if (s.standby)
+          s.standby->set_grandmaster(static_cast<HotStandbyRole>(change->instance),
+                                     changed.is_grandmaster() && changed.grandmaster_present(), local(i));
         disciplined_is_source(i);
       }
       if (const auto* const lost = std::get_if<SyncLost>(&output)) {
@@ -220,7 +230,8 @@ class Harness {
   /// A grandmaster gives the time of its disciplined clock, and so does a boundary clock.
   void disciplined_is_source(std::size_t i) {
     Station& s = station(i);
-    const SourceTime source{local(i), sim::PtpTime::from_ps(s.disciplined.local_at(now_).ps()), s.disciplined.rate() / s.free.rate()};
+    const SourceTime source{local(i), sim::PtpTime::from_ps(s.disciplined.local_at(now_).ps()),
+                            s.disciplined.rate() / s.free.rate()};
     for (std::size_t each = 0; each < s.machine.instance_count(); ++each)
       if (s.machine.instance(each).gives_own_time()) s.machine.instance(each).set_source_time(source);
   }
@@ -253,7 +264,8 @@ class Harness {
     encode(message, octets);
     ++sent[octets.size()];
     const auto [peer, port] = s.peers[send.port - 1u];
-    if (!is_lost(message)) post(now_ + s.delays[send.port - 1u], [this, octets, peer = peer, port = port] { arrive(peer, port, octets); });
+    if (!is_lost(message))
+      post(now_ + s.delays[send.port - 1u], [this, octets, peer = peer, port = port] { arrive(peer, port, octets); });
     if (!is_event(message)) return;
     Outputs outputs;
     const Header& header = header_of(message);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who is grandmaster: fail-over, return, rings and random topologies, external configuration, hot standby.
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ using sim::Duration;
 Duration magnitude(Duration d) { return d < Duration() ? -d : d; }
 
 Harness::NodeSetUp node(int priority1, std::int64_t ppm = 0) {
-  return {.oscillator = {.offset = {ppm * 1'000'000}}, .instances = {{.system = {.priority1 = static_cast<std::uint8_t>(priority1)}}}};
+  return {.oscillator = {.offset = {ppm * 1'000'000}},
+          .instances = {{.system = {.priority1 = static_cast<std::uint8_t>(priority1)}}}};
 }
 
 /// A ring of four whose best nodes are 0, then 1.
@@ -28,7 +30,8 @@ TEST(Grandmaster, FailsOverAndTheOthersStayTogether) {
   Harness harness = ring_of_four();
   harness.start();
   harness.run(15_s);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(harness.instance(i).grandmaster().root.clock, Harness::identity(0)) << i;
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(harness.instance(i).grandmaster().root.clock, Harness::identity(0)) << i;
   EXPECT_LE(magnitude(harness.offset(3, 1)), 1_ns);
   harness.kill(0);
   Duration worst;
@@ -36,7 +39,8 @@ TEST(Grandmaster, FailsOverAndTheOthersStayTogether) {
     harness.run(10_ms);
     for (const std::size_t each : {2u, 3u}) worst = std::max(worst, magnitude(harness.offset(each, 1)));
   }
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(harness.instance(i).grandmaster().root.clock, Harness::identity(1)) << i;
+  for (std::size_t i = 1; i < 4; ++i)
+    EXPECT_EQ(harness.instance(i).grandmaster().root.clock, Harness::identity(1)) << i;
   EXPECT_EQ(harness.station(3).target.state(), TargetState::locked);
   EXPECT_LE(worst, 100_ns);
 }
@@ -87,8 +91,8 @@ TEST(Grandmaster, HoldoverKeepsTheRate) {
 
 /// What BMCA should find, by looking at everything at once.
 struct Expected {
-  std::vector<std::size_t> grandmaster;    // of the component of each node
-  std::vector<std::uint16_t> steps;        // fewest links to it
+  std::vector<std::size_t> grandmaster;  // of the component of each node
+  std::vector<std::uint16_t> steps;      // fewest links to it
 };
 
 using Links = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -118,9 +122,11 @@ Expected exhaustive(const std::vector<SystemIdentity>& systems, const Links& lin
   return expected;
 }
 
-/// The grandmaster is the best of each component, paths are shortest, and the roles form a tree: every node but the grandmaster has one
-/// time receiver, every link that is up one time transmitter at one end and something else at the other.
-void expect_agreement(Harness& harness, const std::vector<SystemIdentity>& systems, const Links& links, const std::string& what) {
+/// The grandmaster is the best of each component, paths are shortest, and the roles form a tree: every node but the
+/// grandmaster has one time receiver, every link that is up one time transmitter at one end and something else at the
+/// other.
+void expect_agreement(Harness& harness, const std::vector<SystemIdentity>& systems, const Links& links,
+                      const std::string& what) {
   const Expected expected = exhaustive(systems, links);
   for (std::size_t i = 0; i < systems.size(); ++i) {
     if (!harness.station(i).alive) continue;
@@ -173,8 +179,8 @@ TEST(Bmca, ARingAgreesWithExhaustiveComparison) {
   }
 }
 
-// Random connected graphs, also with parallel links. Then one link or one node fails: it has converged again after the announce
-// receipt time-out (3 s) for each hop, plus 2 s for measuring and handing on.
+// Random connected graphs, also with parallel links. Then one link or one node fails: it has converged again after the
+// announce receipt time-out (3 s) for each hop, plus 2 s for measuring and handing on.
 TEST(Bmca, RandomTopologiesAgreeBeforeAndAfterAFailure) {
   sim::RandomStream chance(2, "test", "topologies");
   for (int round = 0; round < 60; ++round) {
@@ -239,7 +245,8 @@ TEST(ExternalConfiguration, FixesTheRoles) {
   harness.run(20_s);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(harness.instance(i).grandmaster().root.clock, Harness::identity(0));
-    for (const PortNumber port : {PortNumber{1}, PortNumber{2}}) EXPECT_EQ(harness.instance(i).role(port), roles[i][port - 1u]);
+    for (const PortNumber port : {PortNumber{1}, PortNumber{2}})
+      EXPECT_EQ(harness.instance(i).role(port), roles[i][port - 1u]);
     EXPECT_LE(magnitude(harness.offset(i, 0)), 1_ns);
   }
   EXPECT_EQ(harness.instance(2).path_trace(), (std::vector<ClockIdentity>{Harness::identity(0), Harness::identity(2)}));
@@ -256,13 +263,15 @@ TEST(HotStandbyNetwork, SwitchesOverWithoutAJump) {
   using Role = PortRole;
   const auto add = [&](std::int64_t ppm, std::vector<Role> primary, std::vector<Role> secondary) {
     Harness::NodeSetUp set_up = node(248, ppm);
-    set_up.instances = {{.domain = 0, .external_roles = std::move(primary)}, {.domain = 20, .external_roles = std::move(secondary)}};
+    set_up.instances = {{.domain = 0, .external_roles = std::move(primary)},
+                        {.domain = 20, .external_roles = std::move(secondary)}};
     set_up.standby = HotStandbyConfig{};
     harness.add(set_up);
   };
   add(40, {Role::time_transmitter}, {Role::time_receiver});
   add(-20, {Role::time_receiver}, {Role::time_transmitter});
-  add(10, {Role::time_receiver, Role::time_transmitter, Role::time_transmitter}, {Role::time_transmitter, Role::time_receiver, Role::time_transmitter});
+  add(10, {Role::time_receiver, Role::time_transmitter, Role::time_transmitter},
+      {Role::time_transmitter, Role::time_receiver, Role::time_transmitter});
   add(60, {Role::time_receiver}, {Role::time_receiver});
   for (const std::size_t each : {0u, 1u, 3u}) harness.connect(2, each, 200_ns);
   harness.start();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/hot_standby.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ TEST(HotStandby, SwitchesOverAndBack) {
 
 TEST(HotStandby, DoesNotCallThemRedundantIfTheyDisagree) {
   System s({.is_synced = {.offset_max = 10_us}, .primary_secondary_offset_thresh = 1_us});
-  s.feed_both(0_us, 1'100_ns, 80);   // the servo of 802.1AS intervals has followed by then
+  s.feed_both(0_us, 1'100_ns, 80);  // the servo of 802.1AS intervals has followed by then
   EXPECT_EQ(s.standby.state(), HotStandbyState::not_redundant);
   EXPECT_TRUE(s.standby.is_synced(secondary));
   EXPECT_EQ(s.standby.active(), primary);

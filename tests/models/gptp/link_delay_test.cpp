@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/link_delay.hpp"
 
 #include <gtest/gtest.h>

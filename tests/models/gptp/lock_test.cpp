@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +25,8 @@ Duration worst_offset(Harness& harness, std::size_t node, Duration during) {
 }
 
 Harness::NodeSetUp node(std::uint8_t priority1, std::int64_t ppm, Duration offset = {}) {
-  return {.oscillator = {.offset = {ppm * 1'000'000}}, .instances = {with_priority1(priority1)}, .initial_offset = offset};
+  return {
+      .oscillator = {.offset = {ppm * 1'000'000}}, .instances = {with_priority1(priority1)}, .initial_offset = offset};
 }
 
 // Constant offsets only, exact timestamps: the error is below a nanosecond (picoseconds of rounding).
@@ -40,8 +42,9 @@ TEST(Lock, TwoNodesWithConstantOffsetsAgreeExactly) {
   EXPECT_TRUE(harness.instance(0).is_grandmaster());
   EXPECT_EQ(harness.instance(1).role(1), PortRole::time_receiver);
   // rate of the grandmaster against the free-running clock: 1.00008 / 0.99993
-  EXPECT_NEAR(static_cast<double>(harness.station(1).last_sample.rate_ratio.minus_one().frequency_offset().parts_per_trillion),
-              (1.00008 / 0.99993 - 1) * 1e12, 5);
+  EXPECT_NEAR(
+      static_cast<double>(harness.station(1).last_sample.rate_ratio.minus_one().frequency_offset().parts_per_trillion),
+      (1.00008 / 0.99993 - 1) * 1e12, 5);
 }
 
 // What the grandmaster says of its time goes on as it is; who takes over says its own.
@@ -65,7 +68,8 @@ TEST(Lock, PropertiesOfTheTimeArePassedOn) {
   EXPECT_EQ(harness.instance(2).time_properties(), TimeProperties{});
 }
 
-// The frequency of the second node falls by 1 ppm/s. What it adds to the rate ratio is old when the third works with it, but for what it says of its drift.
+// The frequency of the second node falls by 1 ppm/s. What it adds to the rate ratio is old when the third works with
+// it, but for what it says of its drift.
 TEST(Lock, DriftsThatAreToldAreMadeUpFor) {
   Duration worst[2];
   for (const bool tracks : {false, true}) {
@@ -206,7 +210,8 @@ TEST(Lock, ARelayThatIsNotSyncLocked) {
   EXPECT_NEAR(harness.station(3).samples, 40 * 8, 40);
 }
 
-// Three Syncs in a row are lost once in a while: then a bridge goes on as grandmaster, by holdover, until the next Announce.
+// Three Syncs in a row are lost once in a while: then a bridge goes on as grandmaster, by holdover, until the next
+// Announce.
 TEST(Lock, LostMessagesDoLittleHarm) {
   Harness harness = line(4, {});
   harness.start();

@@ -1,10 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // 100 hops under the assumptions of IEC/IEEE 60802, and what the error at the end is made of.
 //
-// Intervals 125 ms, residence and turnaround 10 ms, timestamps of 8 ns granularity with +-4 ns of dynamic error, +-50 ppm, 80 % of the
-// oscillators drift by up to +-1.5 ppm/s. What each remedy is for:
-//   - The transit takes T = 1 s; the rate ratio that is handed on is that old at the end. Drift d makes D = d T^2 / 2 = 0.75 us of the
+// Intervals 125 ms, residence and turnaround 10 ms, timestamps of 8 ns granularity with +-4 ns of dynamic error, +-50
+// ppm, 80 % of the oscillators drift by up to +-1.5 ppm/s. What each remedy is for:
+//   - The transit takes T = 1 s; the rate ratio that is handed on is that old at the end. Drift d makes D = d T^2 / 2 =
+//   0.75 us of the
 //     grandmaster's drift alone: rate_ratio_drift_window.
-//   - The neighbour rate ratio over 1 s lags by 0.5 s: up to 1.5 ppm a hop, and the sum of all of them counts: compensate_drift.
+//   - The neighbour rate ratio over 1 s lags by 0.5 s: up to 1.5 ppm a hop, and the sum of all of them counts:
+//   compensate_drift.
 //   - The PI servo keeps D T / ki, 957 ns for each ppm/s of relative drift, up to 3 ppm/s: drift tracking.
 #include <gtest/gtest.h>
 
@@ -29,7 +32,8 @@ sim::Duration worst_error(std::size_t hops, std::uint64_t seed, const Remedies& 
     Harness::NodeSetUp node;
     node.instances[0].system.priority1 = i == 0 ? 50 : 246;
     node.instances[0].rate_ratio_drift_window = remedies.ratio_drift ? 32 : 0;
-    draw_oscillator({{-50'000'000}, {50'000'000}, -1'500'000, 1'500'000}, seed, "node" + std::to_string(i), node.oscillator);
+    draw_oscillator({{-50'000'000}, {50'000'000}, -1'500'000, 1'500'000}, seed, "node" + std::to_string(i),
+                    node.oscillator);
     if (chance.below(10) >= 8) node.oscillator.drift_ppt_per_second = 0;
     node.oscillator.update_interval = 100_ms;  // 1.5 ppm/s: 1.9 ns within an interval
     node.timestamps = {.granularity = 8_ns, .jitter = 4_ns};
@@ -50,9 +54,7 @@ sim::Duration worst_error(std::size_t hops, std::uint64_t seed, const Remedies& 
   return worst;
 }
 
-TEST(LongLine, AHundredHopsWithinAMicrosecond) {
-  EXPECT_LE(worst_error(100, 1, {}), 1_us);
-}
+TEST(LongLine, AHundredHopsWithinAMicrosecond) { EXPECT_LE(worst_error(100, 1, {}), 1_us); }
 
 TEST(LongLine, EachRemedyIsNeeded) {
   const sim::Duration all = worst_error(30, 5, {});

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Intervals that a neighbour changes by Signaling with the message-interval request TLV.
 #include "models/gptp/message_interval.hpp"
 
@@ -25,7 +26,8 @@ TEST(MessageInterval, WhatItIsAskedFor) {
   MessageInterval interval(-3, 3);
   EXPECT_FALSE(interval.request(MessageInterval::as_it_is));
   EXPECT_FALSE(interval.request(-3)) << "it is that already";
-  for (const std::int8_t meaningless : {std::int8_t{25}, std::int8_t{125}, std::int8_t{-25}}) EXPECT_FALSE(interval.request(meaningless)) << int{meaningless};
+  for (const std::int8_t meaningless : {std::int8_t{25}, std::int8_t{125}, std::int8_t{-25}})
+    EXPECT_FALSE(interval.request(meaningless)) << int{meaningless};
   EXPECT_TRUE(interval.request(-24));
   EXPECT_EQ(interval.log(), -7) << "as short as it can";
   EXPECT_TRUE(interval.request(24));
@@ -60,7 +62,8 @@ struct Line : Harness {
   int messages(std::size_t from, sim::Duration during, std::size_t length) {
     int count = 0;
     is_lost = [&](const Message& message) {
-      count += header_of(message).source == PortIdentity{identity(from), from == 1 ? PortNumber{2} : PortNumber{1}} && encoded_length(message) == length;
+      count += header_of(message).source == PortIdentity{identity(from), from == 1 ? PortNumber{2} : PortNumber{1}} &&
+               encoded_length(message) == length;
       return false;
     };
     run(during);
@@ -93,7 +96,7 @@ TEST(IntervalRequest, OfSyncToTheGrandmaster) {
   EXPECT_EQ(line.instance(1).role(1), PortRole::time_receiver) << "nothing was lost on the way to the longer interval";
   EXPECT_EQ(line.station(2).grandmasters.back(), Harness::identity(0));
   line.ask(1, 1, {.time_sync = MessageInterval::none});
-  line.run(1_ms);   // what was on its way
+  line.run(1_ms);  // what was on its way
   EXPECT_EQ(line.messages(0, 4_s, sync_length), 0);
   line.ask(1, 1, {.time_sync = MessageInterval::initial});
   line.run(1_s);
@@ -117,7 +120,8 @@ TEST(IntervalRequest, OfAnnounce) {
 TEST(IntervalRequest, OfTheLinksDelay) {
   Line line;
   line.ask(1, 1, {.link_delay = -3});
-  EXPECT_NEAR(line.messages(0, 8_s, pdelay_request_length), 64 + 2 * 8, 2) << "its requests, and its answers to the neighbour's";
+  EXPECT_NEAR(line.messages(0, 8_s, pdelay_request_length), 64 + 2 * 8, 2)
+      << "its requests, and its answers to the neighbour's";
   line.ask(1, 1, {.link_delay = MessageInterval::none});
   EXPECT_EQ(line.messages(0, 8_s, pdelay_request_length), 2 * 8) << "answers alone";
   EXPECT_TRUE(line.station(0).machine.link(1).as_capable()) << "what was measured stays";

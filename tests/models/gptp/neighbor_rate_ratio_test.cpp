@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/neighbor_rate_ratio.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,9 @@ using sim::PtpTime;
 
 PtpTime neighbor(Duration d) { return PtpTime() + d; }
 LocalTime local(Duration d) { return LocalTime() + d; }
-double ppm(ClockRate rate) { return static_cast<double>(rate.minus_one().frequency_offset().parts_per_trillion) * 1e-6; }
+double ppm(ClockRate rate) {
+  return static_cast<double>(rate.minus_one().frequency_offset().parts_per_trillion) * 1e-6;
+}
 
 TEST(NeighborRateRatio, NeedsTwoExchanges) {
   NeighborRateRatio ratio(8);
@@ -41,7 +44,8 @@ TEST(NeighborRateRatio, LooksBackOverItsWindow) {
 TEST(NeighborRateRatio, DriftCompensationTakesTheLagAway) {
   for (const bool compensate : {false, true}) {
     NeighborRateRatio ratio(8, compensate);
-    for (std::int64_t i = 0; i <= 30; ++i) ratio.add(neighbor(i * 1_s + Duration::from_ps(i * i * 500'000)), local(i * 1_s));
+    for (std::int64_t i = 0; i <= 30; ++i)
+      ratio.add(neighbor(i * 1_s + Duration::from_ps(i * i * 500'000)), local(i * 1_s));
     EXPECT_NEAR(ppm(ratio.ratio_at(local(30_s))), compensate ? 30 : 26, 1e-5);
     EXPECT_NEAR(ppm(ratio.ratio_at(local(31_s))), compensate ? 31 : 26, 1e-5) << "also between exchanges";
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/ptp_instance.hpp"
 
 #include <gtest/gtest.h>
@@ -96,7 +97,8 @@ TEST(PtpInstance, GivesTimeAsGrandmaster) {
   const auto syncs = sent<Sync>(bridge.outputs);
   ASSERT_EQ(syncs.size(), 3u);
   bridge.outputs.clear();
-  bridge.instance.transmitted({2, MessageType::sync, 0, syncs[1].second.header.sequence_id, bridge.now + 1_us + 250_ps}, bridge.outputs);
+  bridge.instance.transmitted({2, MessageType::sync, 0, syncs[1].second.header.sequence_id, bridge.now + 1_us + 250_ps},
+                              bridge.outputs);
   const auto follow_ups = sent<FollowUp>(bridge.outputs);
   ASSERT_EQ(follow_ups.size(), 1u);
   EXPECT_EQ(follow_ups[0].second.precise_origin, (Timestamp{100, 125'001'000}));
@@ -154,7 +156,8 @@ InstanceConfig never_grandmaster() {
   return config;
 }
 
-// PortAnnounceTransmit (10.3.16) does not ask whether there is a grandmaster: those behind the bridge must hear that theirs is gone.
+// PortAnnounceTransmit (10.3.16) does not ask whether there is a grandmaster: those behind the bridge must hear that
+// theirs is gone.
 TEST(PtpInstance, ARootThatCannotBeGrandmasterAnnouncesItselfAndSendsNoSync) {
   Bridge bridge(never_grandmaster());
   bridge.hears(1, Bridge::announce(100, 9, 2, 30));
@@ -179,7 +182,9 @@ TEST(PtpInstance, BelowARootThatCannotBeGrandmasterNoSyncIsExpected) {
   bridge.hears(1, Bridge::announce(255, 9, 2, 30));  // its grandmaster is gone
   EXPECT_EQ(all<SyncLost>(bridge.outputs).size(), 1u);
   const auto cancelled = all<CancelTimer>(bridge.outputs);
-  EXPECT_TRUE(std::any_of(cancelled.begin(), cancelled.end(), [](const CancelTimer& each) { return each.timer.port == 1 && each.timer.purpose == TimerPurpose::sync_receipt; }));
+  EXPECT_TRUE(std::any_of(cancelled.begin(), cancelled.end(), [](const CancelTimer& each) {
+    return each.timer.port == 1 && each.timer.purpose == TimerPurpose::sync_receipt;
+  }));
 }
 
 TEST(PtpInstance, RelaysASyncAtOnce) {
@@ -192,7 +197,8 @@ TEST(PtpInstance, RelaysASyncAtOnce) {
   const auto syncs = sent<Sync>(bridge.outputs);
   ASSERT_EQ(syncs.size(), 2u);
   bridge.outputs.clear();
-  bridge.instance.transmitted({3, MessageType::sync, 0, syncs[1].second.header.sequence_id, bridge.now + 4_us}, bridge.outputs);
+  bridge.instance.transmitted({3, MessageType::sync, 0, syncs[1].second.header.sequence_id, bridge.now + 4_us},
+                              bridge.outputs);
   const auto follow_ups = sent<FollowUp>(bridge.outputs);
   ASSERT_EQ(follow_ups.size(), 1u);
   EXPECT_EQ(follow_ups[0].second.precise_origin, (Timestamp{7, 0}));
@@ -259,7 +265,8 @@ TEST(PtpInstance, TellsNoTimeOfAFormerGrandmaster) {
   ASSERT_EQ(syncs.size(), 2u);
   bridge.hears(1, Bridge::announce(90, 8, 1, 9));
   bridge.outputs.clear();
-  bridge.instance.transmitted({3, MessageType::sync, 0, syncs[1].second.header.sequence_id, bridge.now + 4_us}, bridge.outputs);
+  bridge.instance.transmitted({3, MessageType::sync, 0, syncs[1].second.header.sequence_id, bridge.now + 4_us},
+                              bridge.outputs);
   EXPECT_TRUE(sent<FollowUp>(bridge.outputs).empty());
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/gptp/sync_information.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // Schedules of a processor, each derived by hand: when which job ends. Times in microseconds.
+#include "models/host/cpu.hpp"
+
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -6,8 +9,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "models/host/cpu.hpp"
 
 namespace takt::models {
 namespace {
@@ -65,7 +66,9 @@ class Machine final : public sim::Component, public CpuUser, public CpuObserver 
     cpu.submit(thread, *this, source_.id().index, 0, event.argument, simulation.now(), work);
   }
   void job_ended(sim::Simulation&, std::uint64_t job, Ending ending) override {
-    (ending == Ending::done ? ends : ending == Ending::refused ? refused : crashed)[job] = static_cast<double>(simulation.now().ps()) / 1e6;
+    (ending == Ending::done      ? ends
+     : ending == Ending::refused ? refused
+                                 : crashed)[job] = static_cast<double>(simulation.now().ps()) / 1e6;
     if (on_end) on_end(job, ending);
   }
   void job_done(std::uint32_t, TrueTime, Duration response, bool in_time) override {
@@ -97,7 +100,7 @@ using Ends = std::map<std::uint64_t, double>;
 TEST(Cpu, TheMoreUrgentInterruptsAndTheOtherGoesOn) {
   Machine machine({.threads = {fifo(1), fifo(2)}});
   machine.submit(0, 0_us, 10_us);
-  machine.submit(1, 4_us, 3_us);   // 4 .. 7; the other: 0 .. 4 and 7 .. 13
+  machine.submit(1, 4_us, 3_us);  // 4 .. 7; the other: 0 .. 4 and 7 .. 13
   EXPECT_EQ(machine.run(), (Ends{{1, 7}, {0, 13}}));
   EXPECT_EQ(machine.responses, (std::vector{3_us, 13_us}));
   EXPECT_EQ(machine.spent, (std::map<std::uint32_t, Duration>{{0, 10_us}, {1, 3_us}}));
@@ -108,7 +111,7 @@ TEST(Cpu, ExecutionTimesAreThoseOfTheThreadIfTheJobHasNone) {
   plan.threads[0].execution = sim::Distribution::constant(6_us);
   Machine machine(plan);
   machine.submit(0, 1_us);
-  machine.submit(0, 20_us, 0_us);   // what lasts no time lasts a picosecond
+  machine.submit(0, 20_us, 0_us);  // what lasts no time lasts a picosecond
   EXPECT_EQ(machine.run(), (Ends{{0, 7}, {1, 20.000001}}));
 }
 
@@ -121,9 +124,9 @@ TEST(Cpu, DeadlineBeforeFifoBeforeFair) {
 TEST(Cpu, EqualPrioritiesGoInTheOrderInWhichTheyBecameReady) {
   Machine machine({.threads = {fifo(1), fifo(1), fifo(2)}});
   machine.submit(1, 0_us, 10_us);
-  machine.submit(0, 2_us, 1_us);    // waits, though its number is less
-  machine.submit(2, 5_us, 2_us);    // interrupts
-  machine.submit(1, 6_us, 4_us);    // thread 1 has been ready since 0 and stays before thread 0
+  machine.submit(0, 2_us, 1_us);  // waits, though its number is less
+  machine.submit(2, 5_us, 2_us);  // interrupts
+  machine.submit(1, 6_us, 4_us);  // thread 1 has been ready since 0 and stays before thread 0
   EXPECT_EQ(machine.run(), (Ends{{2, 7}, {0, 12}, {3, 16}, {1, 17}}));
 }
 
@@ -137,9 +140,9 @@ TEST(Cpu, JobsOfAThreadOneByOneInTheOrderOfAnInstant) {
 
 TEST(Cpu, TheEarliestDeadlineFirst) {
   Machine machine({.threads = {deadline(20_us), deadline(8_us), deadline(14_us)}});
-  machine.submit(0, 0_us, 6_us);    // by 20
-  machine.submit(1, 4_us, 5_us);    // by 12: interrupts at 4, ends at 9
-  machine.submit(2, 5_us, 2_us);    // by 19: before the rest of the first
+  machine.submit(0, 0_us, 6_us);  // by 20
+  machine.submit(1, 4_us, 5_us);  // by 12: interrupts at 4, ends at 9
+  machine.submit(2, 5_us, 2_us);  // by 19: before the rest of the first
   EXPECT_EQ(machine.run(), (Ends{{1, 9}, {2, 11}, {0, 13}}));
   EXPECT_EQ(machine.late, 0);
 }
@@ -147,7 +150,7 @@ TEST(Cpu, TheEarliestDeadlineFirst) {
 TEST(Cpu, EqualDeadlinesDoNotInterrupt) {
   Machine machine({.threads = {deadline(8_us), deadline(10_us)}});
   machine.submit(1, 0_us, 4_us);
-  machine.submit(0, 2_us, 4_us);    // both by 10
+  machine.submit(0, 2_us, 4_us);  // both by 10
   EXPECT_EQ(machine.run(), (Ends{{1, 8}, {0, 4}}));
 }
 
@@ -160,40 +163,41 @@ TEST(Cpu, WhatEndsAfterItsDeadlineIsLate) {
 }
 
 TEST(Cpu, FairThreadsShareByWeight) {
-  // Slices of 3 us. Virtual times: A (weight 1) gains 3 a slice, B (weight 2) 1.5. A first (equal, lower number): 3, 0: B, B (1.5, 3): equal, A: 6, B, B, ...
+  // Slices of 3 us. Virtual times: A (weight 1) gains 3 a slice, B (weight 2) 1.5. A first (equal, lower number): 3, 0:
+  // B, B (1.5, 3): equal, A: 6, B, B, ...
   Machine machine({.slice = 3_us, .threads = {fair(1024), fair(2048)}});
-  machine.submit(0, 0_us, 9_us);    // 0..3, 9..12, 18..21
-  machine.submit(1, 0_us, 12_us);   // 3..9, 12..18
+  machine.submit(0, 0_us, 9_us);   // 0..3, 9..12, 18..21
+  machine.submit(1, 0_us, 12_us);  // 3..9, 12..18
   EXPECT_EQ(machine.run(), (Ends{{0, 21}, {1, 18}}));
 }
 
 TEST(Cpu, AFairThreadThatWasAwayHasNoClaimOnThatTime) {
   Machine machine({.slice = 2_us, .threads = {fair(), fair()}});
-  machine.submit(0, 0_us, 100_us);   // alone until 50
-  machine.submit(1, 50_us, 4_us);    // from then on turn by turn: B 50..52, A 52..54, B 54..56
+  machine.submit(0, 0_us, 100_us);  // alone until 50
+  machine.submit(1, 50_us, 4_us);   // from then on turn by turn: B 50..52, A 52..54, B 54..56
   EXPECT_EQ(machine.run(), (Ends{{0, 104}, {1, 56}}));
 }
 
 TEST(Cpu, NorIfNoneWasThereWhenItCame) {
   Machine machine({.slice = 2_us, .threads = {fair(), fair()}});
   machine.submit(0, 0_us, 100_us);
-  machine.submit(1, 200_us, 100_us);   // both start anew: A need not wait for 100 us of B
-  machine.submit(0, 201_us, 4_us);     // B 200..202, A ..204, B ..206, A ..208
+  machine.submit(1, 200_us, 100_us);  // both start anew: A need not wait for 100 us of B
+  machine.submit(0, 201_us, 4_us);    // B 200..202, A ..204, B ..206, A ..208
   EXPECT_EQ(machine.run(), (Ends{{0, 100}, {1, 304}, {2, 208}}));
 }
 
 TEST(Cpu, ASliceThatNobodyWaitsForEndsWithTheNextThatComes) {
   Machine machine({.slice = 2_us, .threads = {fair(), fair()}});
   machine.submit(0, 0_us, 10_us);
-  machine.submit(1, 7_us, 1_us);   // the slice is over since 2
+  machine.submit(1, 7_us, 1_us);  // the slice is over since 2
   EXPECT_EQ(machine.run(), (Ends{{0, 11}, {1, 8}}));
 }
 
 TEST(Cpu, SwitchingToAndFro) {
   Machine machine({.switching = 1_us, .threads = {fifo(1), fifo(2)}});
-  machine.submit(0, 0_us, 10_us);     // to it: 0..1, works 1..4
-  machine.submit(1, 4_us, 3_us);      // to it: 4..5, works 5..8; back: 8..9, the first works 9..16
-  machine.submit(0, 20_us, 2_us);     // the core was there last: at once
+  machine.submit(0, 0_us, 10_us);  // to it: 0..1, works 1..4
+  machine.submit(1, 4_us, 3_us);   // to it: 4..5, works 5..8; back: 8..9, the first works 9..16
+  machine.submit(0, 20_us, 2_us);  // the core was there last: at once
   EXPECT_EQ(machine.run(), (Ends{{1, 8}, {0, 16}, {2, 22}}));
   EXPECT_EQ(machine.spent, (std::map<std::uint32_t, Duration>{{0, 14_us}, {1, 4_us}}));
 }
@@ -201,12 +205,13 @@ TEST(Cpu, SwitchingToAndFro) {
 TEST(Cpu, InterruptedWhileItIsSwitchedToItStartsAgain) {
   Machine machine({.switching = 4_us, .threads = {fifo(1), fifo(2)}});
   machine.submit(0, 0_us, 5_us);
-  machine.submit(1, 3_us, 1_us);   // 3..7 to it, ends at 8; 8..12 to the first, ends at 17
+  machine.submit(1, 3_us, 1_us);  // 3..7 to it, ends at 8; 8..12 to the first, ends at 17
   EXPECT_EQ(machine.run(), (Ends{{1, 8}, {0, 17}}));
 }
 
 TEST(Cpu, SlicesAreOfWork) {
-  // Switching takes longer than a slice, and both get on: 4 to A, 2 of it, 4 to B, 2 of it, 4 to A, 1 of it, 4 to B, 1 of it.
+  // Switching takes longer than a slice, and both get on: 4 to A, 2 of it, 4 to B, 2 of it, 4 to A, 1 of it, 4 to B, 1
+  // of it.
   Machine machine({.switching = 4_us, .slice = 2_us, .threads = {fair(), fair()}});
   machine.submit(0, 0_us, 3_us);
   machine.submit(1, 0_us, 3_us);
@@ -218,8 +223,8 @@ TEST(Cpu, NobodyInterruptsTheEndOfAJob) {
   plan.threads[0].non_preemptive = 4_us;
   Machine machine(plan);
   machine.submit(0, 0_us, 10_us);
-  machine.submit(1, 3_us, 1_us);    // 3..4: seven are left
-  machine.submit(1, 7_us, 1_us);    // four are left: waits until 11
+  machine.submit(1, 3_us, 1_us);  // 3..4: seven are left
+  machine.submit(1, 7_us, 1_us);  // four are left: waits until 11
   machine.submit(1, 20_us, 1_us);
   EXPECT_EQ(machine.run(), (Ends{{1, 4}, {0, 11}, {2, 12}, {3, 21}}));
 }
@@ -247,29 +252,30 @@ TEST(Cpu, AJobThatComesAtTheInstantOfAnEndIsSeenBeforeTheNextBegins) {
 TEST(Cpu, TwoCoresRunTheTwoMostUrgent) {
   Machine machine({.cores = 2, .threads = {fifo(1), fifo(2), fifo(3)}});
   for (std::uint32_t thread = 0; thread < 3; ++thread) machine.submit(thread, 0_us, 4_us + thread * 1_us);
-  EXPECT_EQ(machine.run(), (Ends{{1, 5}, {2, 6}, {0, 9}}));   // the least one: 5..9
+  EXPECT_EQ(machine.run(), (Ends{{1, 5}, {2, 6}, {0, 9}}));  // the least one: 5..9
 }
 
 TEST(Cpu, ABoundThreadWaitsForItsCore) {
   Machine machine({.cores = 2, .threads = {fifo(1, 0), fifo(2, 0)}});
   machine.submit(0, 0_us, 4_us);
-  machine.submit(1, 1_us, 4_us);   // the other core stays idle
+  machine.submit(1, 1_us, 4_us);  // the other core stays idle
   EXPECT_EQ(machine.run(), (Ends{{1, 5}, {0, 8}}));
 }
 
 TEST(Cpu, ALessUrgentThreadDoesNotMoveAnyone) {
-  // The thread that may run anywhere is on core 0, and it stays there though core 1 is idle: moving would cost it a switch.
+  // The thread that may run anywhere is on core 0, and it stays there though core 1 is idle: moving would cost it a
+  // switch.
   Machine machine({.cores = 2, .switching = 1_us, .threads = {fifo(5), fifo(1, 0)}});
-  machine.submit(0, 0_us, 6_us);   // 0..1 to it, until 7
-  machine.submit(1, 2_us, 3_us);   // 7..8 to it, until 11
+  machine.submit(0, 0_us, 6_us);  // 0..1 to it, until 7
+  machine.submit(1, 2_us, 3_us);  // 7..8 to it, until 11
   EXPECT_EQ(machine.run(), (Ends{{0, 7}, {1, 11}}));
 }
 
 TEST(Cpu, AMoreUrgentBoundThreadDoes) {
   Machine machine({.cores = 2, .switching = 1_us, .threads = {fifo(1), fifo(5, 0), fifo(0)}});
-  machine.submit(0, 0_us, 6_us);   // on core 0: 1..2; core 1: 2..3 to it, until 8
-  machine.submit(2, 0_us, 6_us);   // on core 1: 1..2; back on core 0 at 6..7 after the bound one, until 12
-  machine.submit(1, 2_us, 3_us);   // core 0: 2..3 to it, until 6
+  machine.submit(0, 0_us, 6_us);  // on core 0: 1..2; core 1: 2..3 to it, until 8
+  machine.submit(2, 0_us, 6_us);  // on core 1: 1..2; back on core 0 at 6..7 after the bound one, until 12
+  machine.submit(1, 2_us, 3_us);  // core 0: 2..3 to it, until 6
   EXPECT_EQ(machine.run(), (Ends{{2, 6}, {0, 8}, {1, 12}}));
 }
 
@@ -282,9 +288,9 @@ TEST(Cpu, WhoMayRunAnywhereLeavesAFreeCoreToWhoIsBoundToIt) {
 
 TEST(Cpu, WhoComesBackTakesTheCoreOnWhichItWas) {
   Machine machine({.cores = 2, .switching = 1_us, .threads = {fifo(1), fifo(2)}});
-  machine.submit(1, 0_us, 1_us);   // core 0 until 2
-  machine.submit(0, 0_us, 2_us);   // core 1 until 3
-  machine.submit(0, 5_us, 2_us);   // core 1 again, at once
+  machine.submit(1, 0_us, 1_us);  // core 0 until 2
+  machine.submit(0, 0_us, 2_us);  // core 1 until 3
+  machine.submit(0, 5_us, 2_us);  // core 1 again, at once
   EXPECT_EQ(machine.run(), (Ends{{0, 2}, {1, 3}, {2, 7}}));
 }
 
@@ -292,8 +298,8 @@ TEST(Cpu, AHeldThreadKeepsItsCoreAndTheOtherIsInterrupted) {
   CpuPlan plan{.cores = 2, .threads = {fifo(1), fifo(2), fifo(3)}};
   plan.threads[0].non_preemptive = 8_us;
   Machine machine(plan);
-  machine.submit(0, 0_us, 10_us);   // held from 2 on: until 10
-  machine.submit(1, 0_us, 10_us);   // 0..4, 7..13
+  machine.submit(0, 0_us, 10_us);  // held from 2 on: until 10
+  machine.submit(1, 0_us, 10_us);  // 0..4, 7..13
   machine.submit(2, 4_us, 3_us);
   EXPECT_EQ(machine.run(), (Ends{{2, 7}, {0, 10}, {1, 13}}));
 }
@@ -303,7 +309,7 @@ TEST(Cpu, MoreThanMayWaitAreRefused) {
   plan.threads[0].most_waiting = 2;
   Machine machine(plan);
   for (int n = 0; n < 3; ++n) machine.submit(0, 0_us, 5_us);
-  machine.submit(0, 5_us, 5_us);   // one has ended at this instant
+  machine.submit(0, 5_us, 5_us);  // one has ended at this instant
   machine.submit(0, 6_us, 5_us);
   EXPECT_EQ(machine.run(), (Ends{{0, 5}, {1, 10}, {3, 15}}));
   EXPECT_EQ(machine.refused, (Ends{{2, 0}, {4, 6}}));
@@ -315,14 +321,15 @@ TEST(Cpu, WhoIsRefusedMaySubmitAtOnce) {
   plan.threads[0].most_waiting = 1;
   Machine machine(plan);
   machine.on_end = [&](std::uint64_t job, CpuUser::Ending ending) {
-    if (ending == CpuUser::Ending::refused) machine.cpu.submit(1, machine, 0, 0, 10 + job, machine.simulation.now(), 1_us);
+    if (ending == CpuUser::Ending::refused)
+      machine.cpu.submit(1, machine, 0, 0, 10 + job, machine.simulation.now(), 1_us);
   };
   for (int n = 0; n < 40; ++n) machine.submit(0, 0_us, 5_us);
   machine.run();
   EXPECT_EQ(machine.refused.size(), 39u);
   EXPECT_EQ(machine.ends.size(), 40u);
   EXPECT_EQ(machine.ends.at(0), 5);
-  EXPECT_EQ(machine.ends.at(49), 44);   // 39 further ones of 1 us each
+  EXPECT_EQ(machine.ends.at(49), 44);  // 39 further ones of 1 us each
 }
 
 TEST(Cpu, ACrashEndsAllJobs) {
@@ -331,7 +338,7 @@ TEST(Cpu, ACrashEndsAllJobs) {
   machine.submit(0, 0_us, 5_us);
   machine.submit(1, 2_us, 5_us);
   machine.crash(4_us);
-  machine.submit(1, 10_us, 5_us);   // nothing is left of before: the core is switched to it
+  machine.submit(1, 10_us, 5_us);  // nothing is left of before: the core is switched to it
   EXPECT_EQ(machine.run(), (Ends{{3, 16}}));
   EXPECT_EQ(machine.crashed, (Ends{{0, 4}, {1, 4}, {2, 4}}));
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The operating system between program and wire: fixed and random delays, first in first out.
 #include <gtest/gtest.h>
 
@@ -11,7 +12,8 @@ namespace {
 using namespace test;
 using sim::Distribution;
 
-/// A direct link of 1 Gb/s, 50 ns; both hosts have these latencies. 100 octets of payload: 1058 ns from the port to the listener.
+/// A direct link of 1 Gb/s, 50 ns; both hosts have these latencies. 100 octets of payload: 1058 ns from the port to the
+/// listener.
 struct Link {
   explicit Link(const OsLatency& latency) {
     const std::uint32_t os = builder.os_latency(latency);
@@ -54,7 +56,8 @@ TEST(OsLatency, FixedDelaysAdd) {
   EXPECT_EQ(listener.arrivals[0].time, local(231'058_ns));
 }
 
-// A fixed delay lies in the time of the arrival event, and so does one that is drawn, unless somebody wants to know of the arrival itself. The results are the same.
+// A fixed delay lies in the time of the arrival event, and so does one that is drawn, unless somebody wants to know of
+// the arrival itself. The results are the same.
 TEST(OsLatency, AFixedDelayIsADegenerateRandomOne) {
   std::uint64_t digests[3];
   std::uint64_t events[3];
@@ -93,8 +96,8 @@ TEST(OsLatency, WhoDrawsDoesNotMatter) {
   EXPECT_EQ(digests[0], digests[1]);
 }
 
-// Frames every 2 us with delays of 0 .. 50 us: none overtakes another, and each delay stays within its bounds: a frame that waits
-// for its predecessor came later than that one, so it waits at most what that one had left.
+// Frames every 2 us with delays of 0 .. 50 us: none overtakes another, and each delay stays within its bounds: a frame
+// that waits for its predecessor came later than that one, so it waits at most what that one had left.
 TEST(OsLatency, RandomReceiveKeepsTheOrderAndItsBounds) {
   Link link(receive(Distribution::uniform(4_us, 50_us)));
   NetworkRun run(link.builder.plan);
@@ -148,7 +151,8 @@ TEST(OsLatency, ApplicationsDoNotQueueBehindEachOther) {
     const StreamIndex other = link.builder.stream(link.talker, {link.listener});
     NetworkRun run(link.builder.plan);
     install<Sender>(*run.network, link.talker, "first", std::vector<Sender::Item>{{local(10_us), link.stream, 100}});
-    if (with_second) install<Sender>(*run.network, link.talker, "second", std::vector<Sender::Item>{{local(500_us), other, 100}});
+    if (with_second)
+      install<Sender>(*run.network, link.talker, "second", std::vector<Sender::Item>{{local(500_us), other, 100}});
     run.until(1_ms);
     EXPECT_EQ(run.stream(link.stream).delivered, 1u);
     return run.stream(link.stream).latency.maximum();

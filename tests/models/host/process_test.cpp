@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Applications on hosts: alarms, their latency, their order with what arrives.
 #include <gtest/gtest.h>
 
@@ -173,7 +174,8 @@ TEST(Process, WhatArrivesComesBeforeTheAlarmOfTheSameInstant) {
     Scripted& scripted = *application;
     Process& process = pair.run->network->add_process(pair.host, "scripted", std::move(application));
     pair.run->network->listen(pair.host, pair.to_host, &process);
-    install<Sender>(*pair.run->network, pair.peer, "sender", std::vector<Sender::Item>{{local(1_us), pair.to_host, 46}});
+    install<Sender>(*pair.run->network, pair.peer, "sender",
+                    std::vector<Sender::Item>{{local(1_us), pair.to_host, 46}});
     scripted.on_start = [](HostServices& host) { host.set_alarm(0, local(1'576_ns)); };
     pair.run->until(1_ms);
     EXPECT_EQ(scripted.log, (Log{{1'576, "receive 0 of 46"}, {1'576, "wake 0"}}));
@@ -190,7 +192,8 @@ TEST(Process, AWatchdogIsFedInTheLastInstant) {
   EXPECT_EQ(pair.scripted->log, (Log{{1'576, "receive 0 of 46"}, {6'576, "wake 0"}}));
 }
 
-// Replies from within receive() and wake(), also while the payload that is being received lives in the same pool: 400 replies.
+// Replies from within receive() and wake(), also while the payload that is being received lives in the same pool: 400
+// replies.
 TEST(Process, RepliesWhileItReceives) {
   Pair pair;
   install<Sender>(*pair.run->network, pair.peer, "sender", std::vector<Sender::Item>{{local(1_us), pair.to_host, 46}});
@@ -227,7 +230,9 @@ TEST(Process, ThePayloadArrivesOctetForOctet) {
    public:
     AlarmId alarm_count() const override { return 0; }
     void start(HostServices&) override {}
-    void receive(HostServices&, StreamIndex, std::span<const std::byte> payload) override { kept.assign(payload.begin(), payload.end()); }
+    void receive(HostServices&, StreamIndex, std::span<const std::byte> payload) override {
+      kept.assign(payload.begin(), payload.end());
+    }
     void wake(HostServices&, AlarmId) override {}
     std::vector<std::byte> kept;
   };
@@ -252,7 +257,8 @@ TEST(Process, APayloadBeyondAFrameIsACheck) {
   EXPECT_THROW(pair.run->until(1_ms), sim::InvariantBroken);
 }
 
-// While it is told of one frame an application sends more than the pool of frames holds: the frame it was told of is whole afterwards.
+// While it is told of one frame an application sends more than the pool of frames holds: the frame it was told of is
+// whole afterwards.
 TEST(Process, AnswersWithMoreFramesThanThereWere) {
   Pair pair;
   Process& sender = pair.run->network->add_process(pair.peer, "sender", std::make_unique<Scripted>());

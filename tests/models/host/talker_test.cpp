@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 // When talkers produce: seen in the trace, exact to the picosecond.
 //
-// The digests follow from the definition in sim/digest.hpp, see expected_digest(): for each frame a record of its production, at that time, and
-// one of its delivery, (stream 0 << 32 | node 1) at production + 126 octets * 80 ps, later if the one before is still on the wire. The first
-// pinned one was computed in Python, too.
+// The digests follow from the definition in sim/digest.hpp, see expected_digest(): for each frame a record of its
+// production, at that time, and one of its delivery, (stream 0 << 32 | node 1) at production + 126 octets * 80 ps,
+// later if the one before is still on the wire. The first pinned one was computed in Python, too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +38,8 @@ Outcome run(const TalkerSchedule& schedule, Duration end, std::uint64_t seed = 1
     EXPECT_EQ(record.detail, stream.value);
     outcome.produced.push_back(record.time.ps());
   }
-  for (const sim::TraceRecord& record : trace.of(Occurrence::started)) outcome.lengths.push_back(TransmissionDetail::unpack(record.detail).octets);
+  for (const sim::TraceRecord& record : trace.of(Occurrence::started))
+    outcome.lengths.push_back(TransmissionDetail::unpack(record.detail).octets);
   EXPECT_EQ(outcome.produced.size(), run.stream(stream).sent);
   outcome.digest = run.digest();
   outcome.delivered = run.stream(stream).delivered;
@@ -55,8 +57,10 @@ std::uint64_t expected_digest(const Outcome& outcome) {
     const auto length = static_cast<std::int64_t>(outcome.lengths[n]);
     const std::int64_t last_bit = std::max(produced, free) + (8 + length) * 80;
     free = last_bit + 12 * 80;
-    digest.add(3, sim::Content(0, 0, 1, 0, 0, 0).value(), sim::TrueTime::from_ps(produced), sim::joined(n, static_cast<std::uint64_t>(length) << 32));
-    if (n < outcome.delivered) digest.add(1, 1, sim::TrueTime::from_ps(last_bit), sim::joined(n, static_cast<std::uint64_t>(produced)));
+    digest.add(3, sim::Content(0, 0, 1, 0, 0, 0).value(), sim::TrueTime::from_ps(produced),
+               sim::joined(n, static_cast<std::uint64_t>(length) << 32));
+    if (n < outcome.delivered)
+      digest.add(1, 1, sim::TrueTime::from_ps(last_bit), sim::joined(n, static_cast<std::uint64_t>(produced)));
   }
   return digest.value();
 }
@@ -69,10 +73,12 @@ TEST(PeriodicSchedule, AtOffsetAndThenEveryPeriod) {
 }
 
 TEST(PeriodicSchedule, WithoutJitterChanceHasNoPart) {
-  EXPECT_EQ(run(PeriodicSchedule{3_us, 10_us, 0_us}, 1_ms, 1).digest, run(PeriodicSchedule{3_us, 10_us, 0_us}, 1_ms, 2).digest);
+  EXPECT_EQ(run(PeriodicSchedule{3_us, 10_us, 0_us}, 1_ms, 1).digest,
+            run(PeriodicSchedule{3_us, 10_us, 0_us}, 1_ms, 2).digest);
 }
 
-// Frame k lies in [offset + k period, offset + k period + jitter], and both ends are nearly reached; no drift accumulates.
+// Frame k lies in [offset + k period, offset + k period + jitter], and both ends are nearly reached; no drift
+// accumulates.
 TEST(PeriodicSchedule, JitterStaysInItsBounds) {
   const Outcome outcome = run(PeriodicSchedule{5_us, 10_us, 4_us}, 100_ms);
   ASSERT_EQ(outcome.produced.size(), 10'000u);
@@ -106,7 +112,8 @@ TEST(PeriodicSchedule, JitterOfAWholePeriodKeepsTheOrder) {
 TEST(ExponentialSchedule, PinnedTimes) {
   const Outcome outcome = run(ExponentialSchedule{7_us, 20_us}, 10_ms);
   ASSERT_GE(outcome.produced.size(), 4u);
-  EXPECT_EQ((Times{outcome.produced.begin(), outcome.produced.begin() + 4}), (Times{80'092'042, 111'343'713, 113'190'621, 152'387'061}));
+  EXPECT_EQ((Times{outcome.produced.begin(), outcome.produced.begin() + 4}),
+            (Times{80'092'042, 111'343'713, 113'190'621, 152'387'061}));
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
   EXPECT_EQ(outcome.digest, 0x7225A455E706A43AULL);
 }
@@ -132,10 +139,12 @@ TEST(ExponentialSchedule, MeanAndDeviationOfTheGaps) {
 
 // Gaps of a normal distribution cut off at 15 and 40 us, computed as above (Python: statistics.NormalDist).
 TEST(RandomGapSchedule, PinnedTimes) {
-  const RandomGapSchedule gaps{7_us, std::make_shared<const sim::Distribution>(sim::Distribution::truncated_normal(20_us, 10_us, 15_us, 40_us))};
+  const RandomGapSchedule gaps{
+      7_us, std::make_shared<const sim::Distribution>(sim::Distribution::truncated_normal(20_us, 10_us, 15_us, 40_us))};
   const Outcome outcome = run(gaps, 10_ms);
   ASSERT_GE(outcome.produced.size(), 4u);
-  EXPECT_EQ((Times{outcome.produced.begin(), outcome.produced.begin() + 4}), (Times{22'485'658, 41'196'081, 75'130'894, 92'668'490}));
+  EXPECT_EQ((Times{outcome.produced.begin(), outcome.produced.begin() + 4}),
+            (Times{22'485'658, 41'196'081, 75'130'894, 92'668'490}));
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
   for (std::size_t k = 1; k < outcome.produced.size(); ++k) {
     EXPECT_GE(outcome.produced[k] - outcome.produced[k - 1], 15'000'000);
@@ -145,8 +154,8 @@ TEST(RandomGapSchedule, PinnedTimes) {
 
 TEST(BurstSchedule, FramesAndSpacing) {
   const Outcome outcome = run(BurstSchedule{2_us, 100_us, 3, 10_us}, 250_us);
-  EXPECT_EQ(outcome.produced, (Times{2'000'000, 12'000'000, 22'000'000, 102'000'000, 112'000'000, 122'000'000, 202'000'000,
-                                     212'000'000, 222'000'000}));
+  EXPECT_EQ(outcome.produced, (Times{2'000'000, 12'000'000, 22'000'000, 102'000'000, 112'000'000, 122'000'000,
+                                     202'000'000, 212'000'000, 222'000'000}));
   EXPECT_EQ(outcome.digest, expected_digest(outcome));
   EXPECT_EQ(outcome.digest, 0x47C324F41A42B21CULL);
 }
@@ -198,7 +207,8 @@ TEST(Talker, ANewcomerMovesNoOtherNumbers) {
   EXPECT_EQ(produced[0], produced[1]);
 }
 
-// A clock that is ahead when the run begins shows times that never were: nothing was due then. (It used to send all of it at once.)
+// A clock that is ahead when the run begins shows times that never were: nothing was due then. (It used to send all of
+// it at once.)
 TEST(Talker, SendsNothingThatWasDueBeforeTheBeginning) {
   const auto produced = [](const TalkerSchedule& schedule, Duration ahead) {
     PlanBuilder builder;
@@ -216,17 +226,20 @@ TEST(Talker, SendsNothingThatWasDueBeforeTheBeginning) {
     return us;
   };
   EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 0_us), (Times{100, 1100, 2100, 3100}));
-  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 1_s), (Times{100, 1100, 2100, 3100}));      // at 1.0001 s of its clock
-  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 5200_us), (Times{900, 1900, 2900}));        // at 6.1 ms
-  EXPECT_EQ(produced(PeriodicSchedule{0_us, 1_ms, 0_us}, 2_ms), (Times{0, 1000, 2000, 3000}));         // due at the beginning itself
-  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, -1_ms), (Times{1100, 2100, 3100}));         // behind: it waits
-  EXPECT_EQ(produced(BurstSchedule{0_us, 2_ms, 2, 10_us}, 1_ms), (Times{1000, 1010, 3000, 3010}));     // at 2 and 4 ms
+  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 1_s),
+            (Times{100, 1100, 2100, 3100}));  // at 1.0001 s of its clock
+  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, 5200_us), (Times{900, 1900, 2900}));  // at 6.1 ms
+  EXPECT_EQ(produced(PeriodicSchedule{0_us, 1_ms, 0_us}, 2_ms),
+            (Times{0, 1000, 2000, 3000}));  // due at the beginning itself
+  EXPECT_EQ(produced(PeriodicSchedule{100_us, 1_ms, 0_us}, -1_ms), (Times{1100, 2100, 3100}));      // behind: it waits
+  EXPECT_EQ(produced(BurstSchedule{0_us, 2_ms, 2, 10_us}, 1_ms), (Times{1000, 1010, 3000, 3010}));  // at 2 and 4 ms
   EXPECT_EQ(produced(TraceSchedule{{{local(100_us), 10_B}, {local(2_ms), 10_B}}}, 1_ms), (Times{1000}));
   EXPECT_LT(produced(ExponentialSchedule{0_us, 500_us}, 1_s).size(), 30u);
 }
 
 TEST(Talker, AnotherSeedIsAnotherRun) {
-  EXPECT_NE(run(ExponentialSchedule{0_us, 20_us}, 10_ms, 1).digest, run(ExponentialSchedule{0_us, 20_us}, 10_ms, 2).digest);
+  EXPECT_NE(run(ExponentialSchedule{0_us, 20_us}, 10_ms, 1).digest,
+            run(ExponentialSchedule{0_us, 20_us}, 10_ms, 2).digest);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Eligibility times worked by hand, and against a token bucket that is written the other way round.
 #include "models/ingress/ats_scheduler.hpp"
 
@@ -26,10 +27,10 @@ constexpr LocalTime local(Duration since_start) { return LocalTime() + since_sta
 
 // CIR 100 Mb/s, CBS 16000 bits (160 us to fill), frames of 1000 octets (8000 bits, 80 us):
 //   start  BucketEmptyTime = -160 us
-//   1  at 0: scheduler eligibility -80, bucket full 0: eligible at 0; not before full, so empty time -80 + (0 - 0) = -80
-//   2  at 0: scheduler eligibility 0, full 80: eligible at 0; empty time 0
-//   3  at 0: scheduler eligibility 80: eligible at 80; empty time 80
-//   4  at 1 ms: scheduler eligibility 160, full 240: eligible at 1000; empty time 160 + (1000 - 240) = 920
+//   1  at 0: scheduler eligibility -80, bucket full 0: eligible at 0; not before full, so empty time -80 + (0 - 0) =
+//   -80 2  at 0: scheduler eligibility 0, full 80: eligible at 0; empty time 0 3  at 0: scheduler eligibility 80:
+//   eligible at 80; empty time 80 4  at 1 ms: scheduler eligibility 160, full 240: eligible at 1000; empty time 160 +
+//   (1000 - 240) = 920
 TEST(AtsScheduler, WorkedExample) {
   AtsScheduler scheduler(100_Mbps, 16'000);
   AtsGroup group;
@@ -53,7 +54,8 @@ TEST(AtsScheduler, SaysWhatItWasMadeWith) {
   EXPECT_EQ(scheduler.bucket_empty_time(), local(839'990_ns));  // 1 ms - 160.01 us
 }
 
-// A frame that would wait for 80 us, with 79.999999 us allowed, is discarded and leaves everything as it was: with 80 us it goes.
+// A frame that would wait for 80 us, with 79.999999 us allowed, is discarded and leaves everything as it was: with 80
+// us it goes.
 TEST(AtsScheduler, ADiscardedFrameChangesNothing) {
   AtsScheduler scheduler(100_Mbps, 8'000);
   AtsGroup group;
@@ -68,8 +70,8 @@ TEST(AtsScheduler, ADiscardedFrameChangesNothing) {
   EXPECT_EQ(scheduler.process(1000_B, local(0_us), group), local(80_us));
 }
 
-// The second stream has a full bucket, but its frame comes after one of the group that must wait: order is kept. Its bucket overflows
-// meanwhile, so it is full again (less the frame) when the frame goes.
+// The second stream has a full bucket, but its frame comes after one of the group that must wait: order is kept. Its
+// bucket overflows meanwhile, so it is full again (less the frame) when the frame goes.
 TEST(AtsScheduler, AGroupKeepsItsOrder) {
   AtsScheduler slow(100_Mbps, 8'000);
   AtsScheduler fast(100_Mbps, 8'000);
@@ -82,8 +84,8 @@ TEST(AtsScheduler, AGroupKeepsItsOrder) {
   EXPECT_EQ(AtsScheduler(100_Mbps, 8'000).process(500_B, local(1_us), other), local(1_us));
 }
 
-// At 3 Mb/s an octet lasts 2666666.67 ps. With a bucket of one octet, octet k is eligible at k * 8 / 3 us, rounded up, and the thirds
-// that are rounded do not add up: octet 3n is exactly at 8n us.
+// At 3 Mb/s an octet lasts 2666666.67 ps. With a bucket of one octet, octet k is eligible at k * 8 / 3 us, rounded up,
+// and the thirds that are rounded do not add up: octet 3n is exactly at 8n us.
 TEST(AtsScheduler, RoundsUpAndLosesNothing) {
   AtsScheduler scheduler(3_Mbps, 8);
   AtsGroup group;
@@ -115,13 +117,14 @@ TEST(AtsScheduler, ExtremesDoNotOverflow) {
   EXPECT_EQ(slowest.process({1'000'000'000}, late, group), std::nullopt);
 }
 
-// The oracle fills a bucket with tokens (in 10^-12 bit) as time goes by (in 1 ps / rate) and looks for the first instant with enough of
-// them, and then for the first picosecond not before it.
+// The oracle fills a bucket with tokens (in 10^-12 bit) as time goes by (in 1 ps / rate) and looks for the first
+// instant with enough of them, and then for the first picosecond not before it.
 class TokenBucket {
  public:
   TokenBucket(std::int64_t rate, std::int64_t burst) : rate_(rate), burst_(int128{burst} * scale), tokens_(burst_) {}
 
-  std::optional<std::int64_t> process(std::int64_t bits, std::int64_t arrival, std::int64_t& group, std::int64_t residence) {
+  std::optional<std::int64_t> process(std::int64_t bits, std::int64_t arrival, std::int64_t& group,
+                                      std::int64_t residence) {
     const int128 need = int128{bits} * scale;
     int128 when = rate_ * std::max(arrival, group);
     when += std::max(int128{0}, need - tokens_at(when));  // one token comes in 1 ps / rate
@@ -144,33 +147,36 @@ class TokenBucket {
 };
 
 TEST(AtsScheduler, AgreesWithATokenBucket) {
-  const bool agrees = rc::check("ATS eligibility = first instant with enough tokens, rounded up, ascending in the group", [] {
-    const std::int64_t longest = *rc::gen::inRange<std::int64_t>(1, 1'600);
-    const std::int64_t residence = *rc::gen::element<std::int64_t>(0, 50'000'000, 1'000'000'000, INT64_MAX);
-    AtsGroup group;
-    group.maximum_residence_time = Duration::from_ps(residence);
-    std::int64_t oracle_group = 0;
-    std::vector<AtsScheduler> schedulers;
-    std::vector<TokenBucket> oracles;
-    for (int i = 0; i < 3; ++i) {
-      const std::int64_t rate = *rc::gen::inRange<std::int64_t>(1'000'000, 1'000'000'007);
-      const std::int64_t burst = longest * 8 + *rc::gen::inRange<std::int64_t>(0, 20'000);
-      schedulers.emplace_back(DataRate{static_cast<std::uint64_t>(rate)}, static_cast<std::uint64_t>(burst));
-      oracles.emplace_back(rate, burst);
-    }
-    std::int64_t now = 0;
-    const auto frames = *rc::gen::container<std::vector<std::tuple<int, std::int64_t, std::int64_t>>>(rc::gen::tuple(
-        rc::gen::inRange(0, 3), rc::gen::inRange<std::int64_t>(1, longest + 1), rc::gen::inRange<std::int64_t>(0, 30'000'000)));
-    for (const auto& [which, octets, gap] : frames) {
-      now += gap;
-      const auto index = static_cast<std::size_t>(which);
-      const auto expected = oracles[index].process(octets * 8, now, oracle_group, residence);
-      const auto found = schedulers[index].process({static_cast<std::uint32_t>(octets)}, LocalTime::from_ps(now), group);
-      RC_ASSERT(found.has_value() == expected.has_value());
-      if (found) RC_ASSERT(found->ps() == *expected);
-      RC_ASSERT(group.group_eligibility_time.ps() == oracle_group);
-    }
-  });
+  const bool agrees =
+      rc::check("ATS eligibility = first instant with enough tokens, rounded up, ascending in the group", [] {
+        const std::int64_t longest = *rc::gen::inRange<std::int64_t>(1, 1'600);
+        const std::int64_t residence = *rc::gen::element<std::int64_t>(0, 50'000'000, 1'000'000'000, INT64_MAX);
+        AtsGroup group;
+        group.maximum_residence_time = Duration::from_ps(residence);
+        std::int64_t oracle_group = 0;
+        std::vector<AtsScheduler> schedulers;
+        std::vector<TokenBucket> oracles;
+        for (int i = 0; i < 3; ++i) {
+          const std::int64_t rate = *rc::gen::inRange<std::int64_t>(1'000'000, 1'000'000'007);
+          const std::int64_t burst = longest * 8 + *rc::gen::inRange<std::int64_t>(0, 20'000);
+          schedulers.emplace_back(DataRate{static_cast<std::uint64_t>(rate)}, static_cast<std::uint64_t>(burst));
+          oracles.emplace_back(rate, burst);
+        }
+        std::int64_t now = 0;
+        const auto frames = *rc::gen::container<std::vector<std::tuple<int, std::int64_t, std::int64_t>>>(
+            rc::gen::tuple(rc::gen::inRange(0, 3), rc::gen::inRange<std::int64_t>(1, longest + 1),
+                           rc::gen::inRange<std::int64_t>(0, 30'000'000)));
+        for (const auto& [which, octets, gap] : frames) {
+          now += gap;
+          const auto index = static_cast<std::size_t>(which);
+          const auto expected = oracles[index].process(octets * 8, now, oracle_group, residence);
+          const auto found =
+              schedulers[index].process({static_cast<std::uint32_t>(octets)}, LocalTime::from_ps(now), group);
+          RC_ASSERT(found.has_value() == expected.has_value());
+          if (found) RC_ASSERT(found->ps() == *expected);
+          RC_ASSERT(group.group_eligibility_time.ps() == oracle_group);
+        }
+      });
   EXPECT_TRUE(agrees);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Colours worked by hand, and against MEF 10.3 written down in rational numbers.
 #include "models/ingress/flow_meter.hpp"
 
@@ -35,8 +36,8 @@ FlowMeterConfig example() {
   return config;
 }
 
-// Full buckets 1000/500. 600: green, 400/500. 500: yellow, 400/0. 401: red. 200 us later: 600/400 (excess has come to 400).
-// 600: green, 0/400. 400: yellow, 0/0. 1: red.
+// Full buckets 1000/500. 600: green, 400/500. 500: yellow, 400/0. 401: red. 200 us later: 600/400 (excess has come to
+// 400). 600: green, 0/400. 400: yellow, 0/0. 1: red.
 TEST(FlowMeter, WorkedExample) {
   FlowMeter meter(example());
   EXPECT_EQ(meter.meter(600_B, false, local(0_us)), green);
@@ -50,8 +51,8 @@ TEST(FlowMeter, WorkedExample) {
   EXPECT_EQ(meter.meter(1_B, false, local(200_us)), red);
 }
 
-// Both buckets empty at 0; 1500 us bring 1500 committed octets, of which 500 overflow. With EIR 0 the excess bucket gets just those,
-// if coupled.
+// Both buckets empty at 0; 1500 us bring 1500 committed octets, of which 500 overflow. With EIR 0 the excess bucket
+// gets just those, if coupled.
 TEST(FlowMeter, TheCouplingFlagHandsOverflowOn) {
   for (const bool coupled : {false, true}) {
     FlowMeterConfig config = example();
@@ -115,7 +116,8 @@ TEST(FlowMeter, AYellowDropLatchesToo) {
   EXPECT_TRUE(meter.mark_all_frames_red());
 }
 
-// 3 b/s bring an octet in 2.67 s. Asked every picosecond-odd instant, nothing is lost: after 8 s there are exactly three octets.
+// 3 b/s bring an octet in 2.67 s. Asked every picosecond-odd instant, nothing is lost: after 8 s there are exactly
+// three octets.
 TEST(FlowMeter, FractionsOfAnOctetAreKept) {
   FlowMeterConfig config;
   config.committed_information_rate = {3};
@@ -152,7 +154,9 @@ TEST(FlowMeter, AgreesWithRationalArithmetic) {
   using Rational = boost::multiprecision::cpp_rational;
   const bool agrees = rc::check("flow meter = MEF 10.3 in rationals", [] {
     FlowMeterConfig config;
-    const auto rate = [] { return sim::DataRate{*rc::gen::element<std::uint64_t>(0, 999'983, 10'000'000, 777'777'777, 1'000'000'000)}; };
+    const auto rate = [] {
+      return sim::DataRate{*rc::gen::element<std::uint64_t>(0, 999'983, 10'000'000, 777'777'777, 1'000'000'000)};
+    };
     const auto burst = [] { return Octets{*rc::gen::inRange<std::uint32_t>(0, 4'000)}; };
     config.committed_information_rate = rate();
     config.excess_information_rate = rate();
@@ -160,18 +164,20 @@ TEST(FlowMeter, AgreesWithRationalArithmetic) {
     config.excess_burst_size = burst();
     config.coupling_flag = *rc::gen::arbitrary<bool>();
     config.color_mode = *rc::gen::element(ColorMode::color_blind, ColorMode::color_aware);
-    if (*rc::gen::arbitrary<bool>()) {   // committed tokens alone have a short way
+    if (*rc::gen::arbitrary<bool>()) {  // committed tokens alone have a short way
       config.excess_burst_size = {};
       config.color_mode = ColorMode::color_blind;
     }
     FlowMeter meter(config);
 
-    const Rational cir(config.committed_information_rate.bits_per_second), eir(config.excess_information_rate.bits_per_second);
+    const Rational cir(config.committed_information_rate.bits_per_second),
+        eir(config.excess_information_rate.bits_per_second);
     const Rational cbs(config.committed_burst_size.count), ebs(config.excess_burst_size.count);
     Rational bc = cbs, be = ebs;
     std::int64_t now = 0;
-    const auto frames = *rc::gen::container<std::vector<std::tuple<std::uint32_t, bool, std::int64_t>>>(rc::gen::tuple(
-        rc::gen::inRange<std::uint32_t>(1, 1'600), rc::gen::arbitrary<bool>(), rc::gen::inRange<std::int64_t>(0, 40'000'000)));
+    const auto frames = *rc::gen::container<std::vector<std::tuple<std::uint32_t, bool, std::int64_t>>>(
+        rc::gen::tuple(rc::gen::inRange<std::uint32_t>(1, 1'600), rc::gen::arbitrary<bool>(),
+                       rc::gen::inRange<std::int64_t>(0, 40'000'000)));
     for (const auto& [length, dei, gap] : frames) {
       now += gap;
       const Rational dt = Rational(gap) / Rational(1'000'000'000'000);

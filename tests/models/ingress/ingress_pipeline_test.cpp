@@ -1,11 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ingress chain of a bridge: each function by itself, several together, what is counted and where frames end.
+#include "models/ingress/ingress_pipeline.hpp"
+
 #include <gtest/gtest.h>
 
 #include <utility>
 #include <vector>
 
 #include "models/ethernet/sizes.hpp"
-#include "models/ingress/ingress_pipeline.hpp"
 
 namespace takt::models {
 namespace {
@@ -15,7 +17,7 @@ using sim::Duration;
 using sim::LocalTime;
 using sim::TrueTime;
 
-constexpr std::uint32_t nodes = 10;       // addresses below are those of nodes
+constexpr std::uint32_t nodes = 10;  // addresses below are those of nodes
 constexpr AddressIndex group{11};
 constexpr AddressIndex member_a{21};
 constexpr AddressIndex member_b{22};
@@ -51,7 +53,9 @@ class Bench {
     const auto frames = pipeline_.pass(simulation, {frame, port, TrueTime() + when});
     return {frames.begin(), frames.end()};
   }
-  std::uint64_t dropped(DropReason reason) const { return traffic.stream(index).dropped[static_cast<std::size_t>(reason)]; }
+  std::uint64_t dropped(DropReason reason) const {
+    return traffic.stream(index).dropped[static_cast<std::size_t>(reason)];
+  }
   IngressPipeline& pipeline() { return pipeline_; }
 
   sim::Simulation simulation{1};
@@ -91,8 +95,8 @@ TEST(IngressPipeline, FramesOfNoStreamPassUntouched) {
 
 TEST(IngressPipeline, TheFirstFilterThatMatchesIsTheFrames) {
   IngressConfig config = one_filter();
-  config.stream_filters[0].priority = 4;                       // not this frame's
-  config.stream_filters.push_back({});                          // any stream, any priority
+  config.stream_filters[0].priority = 4;  // not this frame's
+  config.stream_filters.push_back({});    // any stream, any priority
   config.stream_filters.back().maximum_sdu_size = Octets{100};
   config.stream_filters.push_back({});
   Bench bench{std::move(config)};
@@ -131,7 +135,10 @@ TEST(IngressPipeline, AnRTagCountsInTheSdu) {
 // Open for 10 us with internal priority 7, then for 10 us with the frame's own, then closed for 30 us.
 TEST(IngressPipeline, AStreamGateGivesTheQueueOrTakesTheFrame) {
   IngressConfig config = one_filter({std::nullopt, std::nullopt, Octets{0}, false, StreamGateIndex{0}, {}, {}});
-  config.stream_gates = {gate({{true, Priority{7}, 10_us, std::nullopt}, {true, std::nullopt, 10_us, std::nullopt}, {false, std::nullopt, 30_us, std::nullopt}}, 50_us)};
+  config.stream_gates = {gate({{true, Priority{7}, 10_us, std::nullopt},
+                               {true, std::nullopt, 10_us, std::nullopt},
+                               {false, std::nullopt, 30_us, std::nullopt}},
+                              50_us)};
   Bench bench{std::move(config)};
   const Frame* const first = bench.pass(50_us);
   ASSERT_NE(first, nullptr);
@@ -148,12 +155,14 @@ TEST(IngressPipeline, AStreamGateGivesTheQueueOrTakesTheFrame) {
   EXPECT_NE(bench.pass(100_us), nullptr);
   EXPECT_EQ(bench.dropped(DropReason::stream_gate), 2u);
   EXPECT_EQ(bench.pipeline().stream_gates()[0].counters(), (StreamGate::Counters{3, 2, 0}));
-  EXPECT_EQ(bench.pipeline().stream_filters()[StreamFilterIndex{0}].counters(), (StreamFilterCounters{5, 3, 2, 5, 0, 0}));
+  EXPECT_EQ(bench.pipeline().stream_filters()[StreamFilterIndex{0}].counters(),
+            (StreamFilterCounters{5, 3, 2, 5, 0, 0}));
 }
 
 TEST(IngressPipeline, AGateClosesForGoodAfterInvalidReception) {
   IngressConfig config = one_filter({std::nullopt, std::nullopt, Octets{0}, false, StreamGateIndex{0}, {}, {}});
-  config.stream_gates = {gate({{true, std::nullopt, 10_us, std::nullopt}, {false, std::nullopt, 10_us, std::nullopt}}, 20_us)};
+  config.stream_gates = {
+      gate({{true, std::nullopt, 10_us, std::nullopt}, {false, std::nullopt, 10_us, std::nullopt}}, 20_us)};
   config.stream_gates[0].closed_due_to_invalid_rx_enable = true;
   Bench bench{std::move(config)};
   EXPECT_NE(bench.pass(0_us), nullptr);
@@ -179,8 +188,8 @@ TEST(IngressPipeline, AGateClosesForGoodBeyondItsOctets) {
   EXPECT_EQ(strict.pipeline().stream_gates()[0].counters(), (StreamGate::Counters{2, 1, 1}));
 }
 
-// 122 octets from DA to FCS. A committed burst of 122 lets one pass green, an excess burst of 122 another one yellow, the third
-// is red. 8 Mb/s bring one octet a microsecond: 122 us later one passes green again.
+// 122 octets from DA to FCS. A committed burst of 122 lets one pass green, an excess burst of 122 another one yellow,
+// the third is red. 8 Mb/s bring one octet a microsecond: 122 us later one passes green again.
 TEST(IngressPipeline, AMeterColours) {
   IngressConfig config = one_filter({std::nullopt, std::nullopt, Octets{0}, false, {}, FlowMeterIndex{0}, {}});
   config.flow_meters.push_back({"m", {{8'000'000}, Octets{122}, {0}, Octets{122}}});
@@ -203,7 +212,8 @@ TEST(IngressPipeline, AMeterColours) {
 
 IngressConfig ats(Duration maximum_residence_time = Duration::max(), std::uint32_t schedulers = 1) {
   IngressConfig config = one_filter({std::nullopt, std::nullopt, Octets{0}, false, {}, {}, AtsSchedulerIndex{0}});
-  for (std::uint32_t i = 0; i < schedulers; ++i) config.ats_schedulers.push_back({"a", {8'000'000}, Octets{142}, true, {}});
+  for (std::uint32_t i = 0; i < schedulers; ++i)
+    config.ats_schedulers.push_back({"a", {8'000'000}, Octets{142}, true, {}});
   config.maximum_residence_time = maximum_residence_time;
   return config;
 }
@@ -246,12 +256,13 @@ TEST(IngressPipeline, AtsDropsWhatWouldStayTooLong) {
   EXPECT_EQ(bench.pipeline().ats_schedulers()[0].discarded, 1u);
 }
 
-// Two schedulers, each with a full bucket. Frames of one reception port and class stay in order, so the second scheduler's frame waits
-// for the first one's; at another port it does not, nor does it in another class.
+// Two schedulers, each with a full bucket. Frames of one reception port and class stay in order, so the second
+// scheduler's frame waits for the first one's; at another port it does not, nor does it in another class.
 TEST(IngressPipeline, AtsGroupsKeepOrderWithinPortAndClass) {
   IngressConfig config = ats(Duration::max(), 2);
   config.streams.push_back("t");
-  config.stream_identity_table.insert(config.stream_identity_table.begin(), {StreamHandle{1}, AddressIdentification{member_a}});
+  config.stream_identity_table.insert(config.stream_identity_table.begin(),
+                                      {StreamHandle{1}, AddressIdentification{member_a}});
   config.stream_filters.push_back({StreamHandle{1}, std::nullopt, Octets{0}, false, {}, {}, AtsSchedulerIndex{1}});
   const auto second_scheduler_after_two_of_the_first = [&](std::uint16_t port, Priority priority) {
     Bench bench{config};
@@ -326,13 +337,15 @@ TEST(IngressPipeline, AMergePassesEachNumberOnceAndRestoresTheStream) {
   Bench bench{merge()};
   for (SequenceNumber number = 0; number < 4; ++number) {
     const bool a_first = number % 2 == 0;
-    const std::vector<FrameIndex> first = bench.pass_frame(bench.make_member(a_first ? member_a : member_b, number), 1_us, a_first ? 1 : 2);
+    const std::vector<FrameIndex> first =
+        bench.pass_frame(bench.make_member(a_first ? member_a : member_b, number), 1_us, a_first ? 1 : 2);
     ASSERT_EQ(first.size(), 1u);
     const Frame& frame = bench.traffic.frame(first[0]);
     EXPECT_EQ(frame.destination, group);
     EXPECT_FALSE(frame.r_tagged);
     EXPECT_EQ(frame.length, 14 + 4 + 100 + 4);
-    EXPECT_TRUE(bench.pass_frame(bench.make_member(a_first ? member_b : member_a, number), 2_us, a_first ? 2 : 1).empty());
+    EXPECT_TRUE(
+        bench.pass_frame(bench.make_member(a_first ? member_b : member_a, number), 2_us, a_first ? 2 : 1).empty());
   }
   EXPECT_EQ(bench.dropped(DropReason::duplicate), 4u);
   const SequenceRecoveryCounters& counters = bench.pipeline().recoveries(TrueTime() + 3_us)[0].recovery.counters();
@@ -371,7 +384,8 @@ TEST(IngressPipeline, WhatIsSplitHasBeenPoliced) {
   config.flow_meters.push_back({"m", {{0}, Octets{122}, {0}, Octets{0}}});
   config.stream_gates = {StreamGateConfig{}};
   config.stream_gates[0].admin_ipv = Priority{3};
-  config.stream_filters = {{StreamHandle{0}, std::nullopt, Octets{0}, false, StreamGateIndex{0}, FlowMeterIndex{0}, {}}};
+  config.stream_filters = {
+      {StreamHandle{0}, std::nullopt, Octets{0}, false, StreamGateIndex{0}, FlowMeterIndex{0}, {}}};
   Bench bench{std::move(config)};
   const std::vector<FrameIndex> frames = bench.pass_frame(bench.make(), 1_us);
   ASSERT_EQ(frames.size(), 2u);
@@ -385,8 +399,10 @@ TEST(IngressPipeline, IndividualRecoveryTakesOutWhatOneMemberBringsTwice) {
   recovery.individual_recovery = true;
   Bench bench{merge(recovery)};
   EXPECT_EQ(bench.pass_frame(bench.make_member(member_a, 0), 1_us, 1).size(), 1u);
-  EXPECT_TRUE(bench.pass_frame(bench.make_member(member_a, 0), 2_us, 1).empty());  // babble: ends in the individual recovery
-  EXPECT_TRUE(bench.pass_frame(bench.make_member(member_b, 0), 3_us, 2).empty());  // the copy: ends in the sequence recovery
+  EXPECT_TRUE(
+      bench.pass_frame(bench.make_member(member_a, 0), 2_us, 1).empty());  // babble: ends in the individual recovery
+  EXPECT_TRUE(
+      bench.pass_frame(bench.make_member(member_b, 0), 3_us, 2).empty());  // the copy: ends in the sequence recovery
   const StreamRecovery& one = bench.pipeline().recoveries(TrueTime() + 4_us)[0].recovery;
   ASSERT_EQ(one.individual().size(), 2u);
   EXPECT_EQ(one.individual()[0].recovery.recovery().counters().discarded_packets, 1u);
@@ -411,11 +427,13 @@ TEST(IngressPipeline, EntriesOfAllKindsAreTriedInTheirOrder) {
     IngressConfig config;
     config.streams = {"address", "source", "mask"};
     config.stream_identity_table = std::move(table);
-    for (std::uint32_t i = 0; i < 3; ++i) config.stream_filters.push_back({StreamHandle{i}, std::nullopt, Octets{0}, false, {}, {}, {}});
+    for (std::uint32_t i = 0; i < 3; ++i)
+      config.stream_filters.push_back({StreamHandle{i}, std::nullopt, Octets{0}, false, {}, {}, {}});
     Bench bench{std::move(config)};
     bench.pass(1_us);
     std::vector<std::uint64_t> counts;
-    for (std::uint32_t i = 0; i < 3; ++i) counts.push_back(bench.pipeline().stream_filters()[StreamFilterIndex{i}].counters().matching_frames);
+    for (std::uint32_t i = 0; i < 3; ++i)
+      counts.push_back(bench.pipeline().stream_filters()[StreamFilterIndex{i}].counters().matching_frames);
     return counts;
   };
   const StreamIdentityEntry address{StreamHandle{0}, AddressIdentification{group}};
@@ -451,7 +469,8 @@ TEST(IngressPipeline, EveryFrameIsAccountedFor) {
   config.flow_meters.push_back({"m", {{40'000'000}, Octets{200}, {8'000'000}, Octets{150}}});
   config.ats_schedulers.push_back({"a", {30'000'000}, Octets{400}, true, {}});
   config.maximum_residence_time = 30_us;
-  config.stream_filters = {{StreamHandle{0}, std::nullopt, Octets{110}, false, StreamGateIndex{0}, FlowMeterIndex{0}, AtsSchedulerIndex{0}}};
+  config.stream_filters = {
+      {StreamHandle{0}, std::nullopt, Octets{110}, false, StreamGateIndex{0}, FlowMeterIndex{0}, AtsSchedulerIndex{0}}};
   Bench bench{std::move(config)};
   std::uint64_t passed = 0;
   for (std::uint32_t i = 0; i < 3000; ++i) {

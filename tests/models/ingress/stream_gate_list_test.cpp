@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stream gates: the arithmetic of transmission gates with what a stream gate has instead of a mask.
+#include "models/ingress/stream_gate_list.hpp"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -6,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "models/ingress/stream_gate_list.hpp"
 #include "tests/models/schedule_executor.hpp"
 
 namespace takt::models::stream_gate_list_test {
@@ -44,7 +46,8 @@ TEST(StreamGate, BeforeTheFirstListItIsAsManagementSays) {
   EXPECT_TRUE(gate.state(at(30_us)).open);
 }
 
-// 1000 octets an interval: 600 + 400 pass, one more does not, and the next interval begins anew. A refused frame takes nothing.
+// 1000 octets an interval: 600 + 400 pass, one more does not, and the next interval begins anew. A refused frame takes
+// nothing.
 TEST(StreamGate, OctetsAreCountedForEachRunOfAnEntry) {
   const StreamGateList list(std::vector<StreamGateEntry>{{true, {}, 10_us, 1'000u}, {true, {}, 10_us, {}}}, 20_us);
   StreamGateSchedule gate;
@@ -87,13 +90,14 @@ TEST(StreamGate, ExecutesAsTheStateMachinesDo) {
       for (Ns k = 0, length = number(1, 6); k < length; ++k) {
         config.list.push_back({static_cast<int>(16 * i + k), number(0, 12)});
         entries.push_back({k % 2 == 0, Priority{static_cast<Priority>(k)},
-                           Duration::from_ps(config.list.back().interval_ns * 1'000), static_cast<std::uint32_t>(16 * i + k)});
+                           Duration::from_ps(config.list.back().interval_ns * 1'000),
+                           static_cast<std::uint32_t>(16 * i + k)});
       }
       config.cycle_time = number(1, 40);
       config.base_time = number(0, 2) == 0 ? time + number(-60, 0) : time + number(0, 150);
       config.extension = number(0, 1) == 0 ? 0 : number(0, 90);
-      RC_LOG() << "request at " << time << ": base " << config.base_time << ", cycle " << config.cycle_time << ", extension "
-               << config.extension << '\n';
+      RC_LOG() << "request at " << time << ": base " << config.base_time << ", cycle " << config.cycle_time
+               << ", extension " << config.extension << '\n';
       lists.emplace_back(entries, Duration::from_ps(config.cycle_time * 1'000));
       requests.emplace_back(time, std::move(config));
       time += number(0, 3) == 0 ? 0 : number(0, 70);
@@ -110,7 +114,7 @@ TEST(StreamGate, ExecutesAsTheStateMachinesDo) {
       for (std::size_t i = first; i < next; ++i)
         gate.request_change(at_ns(now), {&lists[i], at_ns(requests[i].second.base_time),
                                          Duration::from_ps(requests[i].second.extension * 1'000)});
-      const bool operates = !executor.take_executed().empty();
+      const bool operates = !executor.drain_executed().empty();
       const StreamGateState state = gate.state(at_ns(now));
       RC_LOG() << "at " << now << '\n';
       if (!executor.running()) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "models/ingress/stream_identification.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,8 @@ constexpr StreamHeader vlan_6{there, here, 6, true, 5, ipv4};
 
 TEST(MacAddress, OctetsAndGroups) {
   EXPECT_EQ(mac_address_of({0x012345}, 0x20000).octets(),
-            (std::array<std::byte, 6>{std::byte{0x02}, std::byte{0}, std::byte{0x5E}, std::byte{0x01}, std::byte{0x23}, std::byte{0x45}}));
+            (std::array<std::byte, 6>{std::byte{0x02}, std::byte{0}, std::byte{0x5E}, std::byte{0x01}, std::byte{0x23},
+                                      std::byte{0x45}}));
   EXPECT_FALSE(mac_address_of({9}, 10).is_group());
   EXPECT_TRUE(mac_address_of({10}, 10).is_group());
   EXPECT_EQ(mac_address_of({10}, 10).value, 0x03005E00000Au);
@@ -41,7 +43,8 @@ TEST_P(VlanMatching, FollowsTheTaggedParameter) {
   const StreamHeader* const headers[] = {&untagged, &priority_tagged, &vlan_5, &vlan_6};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(identifies(NullIdentification{there, each.tagged, each.vlan}, *headers[i]), each.matches[i]) << i;
-    EXPECT_EQ(identifies(SourceMacAndVlanIdentification{here, each.tagged, each.vlan}, *headers[i]), each.matches[i]) << i;
+    EXPECT_EQ(identifies(SourceMacAndVlanIdentification{here, each.tagged, each.vlan}, *headers[i]), each.matches[i])
+        << i;
     EXPECT_FALSE(identifies(NullIdentification{here, each.tagged, each.vlan}, *headers[i])) << i;
     EXPECT_FALSE(identifies(SourceMacAndVlanIdentification{there, each.tagged, each.vlan}, *headers[i])) << i;
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A master alone waits in INIT for its slave.
 #include "handshake/participant.hpp"
 

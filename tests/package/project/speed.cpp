@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A value goes from a Publisher to a Subscriber through memory.
 #include "pubsub/communication.hpp"
 #include "pubsub/data_set.hpp"

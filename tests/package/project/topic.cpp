@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A sample goes from one DDS participant to another, matched by hand, through memory.
 #include "dds/participant/participant.hpp"
 
@@ -21,9 +22,11 @@ int main() {
   if (!writer || !reader) return 1;
   here.match(*writer.handle, there.data_of(*reader.handle), now);
   there.match(*reader.handle, here.data_of(*writer.handle), now);
-  const std::byte sample[]{std::byte{0}, std::byte{1}, std::byte{0}, std::byte{0}, std::byte{42}, std::byte{0}, std::byte{0}, std::byte{0}};   // CDR, little-endian
+  const std::byte sample[]{std::byte{0},  std::byte{1}, std::byte{0}, std::byte{0},
+                           std::byte{42}, std::byte{0}, std::byte{0}, std::byte{0}};  // CDR, little-endian
   here.write(*writer.handle, dds::no_key, sample, now);
-  while (const auto datagram = here.next_datagram()) there.receive(datagram->octets, datagram->destinations.front(), now);
+  while (const auto datagram = here.next_datagram())
+    there.receive(datagram->octets, datagram->destinations.front(), now);
   const auto taken = there.take(*reader.handle, now);
   return taken && taken->payload.at(4) == std::byte{42} ? 0 : 2;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The line benchmark in ns-3: host A - 5 switches - host B, 1 Gb/s, 50 ns of cable a link; from A to B a UDP stream of
 // 100 B of payload every 200 us and one of 1000 B every 20 us.
 //

@@ -1,3 +1,0 @@
-#include "cli/program.hpp"
-
-int main(int argc, char** argv) { return takt::cli::run_companion(argc, argv, {takt::cli::add_study_command, takt::cli::add_compare_command}); }

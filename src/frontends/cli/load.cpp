@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/load.hpp"
+
+#include <cstdio>
+
+#include "cli/input_kind.hpp"
+#include "cli/terminal.hpp"
+#include "output/written_files.hpp"
+
+namespace takt::cli {
+
+void warn_of_another_maker(const std::string& file) {
+  if (const std::string difference = output::made_by_another(file); !difference.empty())
+    std::fprintf(stderr, "takt: warning: %s: what it showed then need not happen now\n", difference.c_str());
+}
+
+void add_scenario_options(Command command, ScenarioOptions& options) {
+  command.add_option("SCENARIO", options.file, "The scenario file (JSON, comments allowed)").required();
+  command.add_option("--seed", options.seed, "Another seed than the scenario's").type_name("N");
+  command.add_option("--duration", options.duration, "Another duration, such as 100ms or 1h").type_name("D");
+  command
+      .add_option("--set", options.overrides,
+                  "Another value in the scenario: network.links.0.rate=100Mbps (repeatable)")
+      .type_name("POINTER=VALUE")
+      .one_value_each();
+  command.add_option("--format", options.format, "text or json").one_of({"text", "json"}).type_name("FORMAT");
+}
+
+std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet) {
+  std::vector<std::string> overrides = options.overrides;
+  if (options.seed) overrides.push_back("/seed=" + *options.seed);
+  if (options.duration) overrides.push_back("/duration=" + *options.duration);
+  json::Diagnostics diagnostics;
+  auto resolved = scenario::load_file(options.file, overrides, diagnostics);
+  if (!resolved)
+    if (json::Diagnostics other; belongs_elsewhere(options.file, InputKind::scenario, other)) diagnostics = other;
+  if (!resolved && options.is_json()) {
+    std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
+    return nullptr;
+  }
+  if (!resolved || !is_quiet) tell(diagnostics);
+  warn_of_another_maker(options.file);
+  return resolved;
+}
+
+}  // namespace takt::cli

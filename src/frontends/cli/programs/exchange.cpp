@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/program.hpp"
+
+int main(int argc, char** argv) {
+  return takt::cli::run_companion(argc, argv, {takt::cli::add_export_command, takt::cli::add_import_command});
+}

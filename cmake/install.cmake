@@ -18,8 +18,10 @@ install(TARGETS takt_options ${takt_installed} EXPORT takt-targets ARCHIVE DESTI
 
 set(takt_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/takt)
 install(EXPORT takt-targets NAMESPACE takt:: DESTINATION ${takt_cmake_folder} COMPONENT takt_library)
-foreach(folder security program handshake uadp pubsub dds gateway wire plant node json)
-  install(DIRECTORY src/${folder}/ DESTINATION ${TAKT_INCLUDE_FOLDER}/${folder} COMPONENT takt_library FILES_MATCHING PATTERN "*.hpp"
+foreach(module protocol/security protocol/program protocol/handshake protocol/uadp protocol/pubsub protocol/dds protocol/gateway protocol/wire
+        foundation/plant foundation/json device/node)
+  get_filename_component(folder ${module} NAME)
+  install(DIRECTORY src/${module}/ DESTINATION ${TAKT_INCLUDE_FOLDER}/${folder} COMPONENT takt_library FILES_MATCHING PATTERN "*.hpp"
           PATTERN node/applications EXCLUDE PATTERN node/dds EXCLUDE PATTERN node/server EXCLUDE)  # parts of the command
 endforeach()
 install(FILES sim/time.hpp sim/units.hpp sim/check.hpp sim/octets.hpp DESTINATION ${TAKT_INCLUDE_FOLDER}/sim COMPONENT takt_library)

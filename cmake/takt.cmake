@@ -79,10 +79,17 @@ endfunction()
 
 # takt_library(NAME [SINGLY] SOURCES a.cpp ... QUICKLY b.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
 # QUICKLY are sources whose speed nobody notices (descriptions, commands, reports): they are compiled with -Og, in two thirds of the time that -O1 takes. Several sources are compiled at a
-# time (TAKT_UNITY), since most of what they take is the headers; SINGLY not, where what the optimiser sees at a time decides about the speed. Headers are included from the repository's root ("sim/time.hpp") or from src/ ("handshake/participant.hpp").
+# time (TAKT_UNITY), since most of what they take is the headers; SINGLY not, where what the optimiser sees at a time decides about the speed. Headers are included from the repository's root ("sim/time.hpp") or from their
+# wing ("handshake/participant.hpp").
+set(takt_include_folders ${takt_wings})
+list(TRANSFORM takt_include_folders PREPEND "${PROJECT_SOURCE_DIR}/src/")
+list(PREPEND takt_include_folders "${PROJECT_SOURCE_DIR}")
+set(takt_test_folders ${takt_wings})
+list(TRANSFORM takt_test_folders PREPEND "${PROJECT_SOURCE_DIR}/tests/")
+list(PREPEND takt_test_folders "${PROJECT_SOURCE_DIR}/tests")
 function(takt_library name)
   cmake_parse_arguments(ARG "SINGLY" "" "SOURCES;QUICKLY;LINKS;PRIVATE_LINKS" ${ARGN})
-  set(folders "${PROJECT_SOURCE_DIR};${PROJECT_SOURCE_DIR}/src")
+  set(folders "${takt_include_folders}")
   if(NOT ARG_SOURCES AND NOT ARG_QUICKLY)
     add_library(${name} INTERFACE)
     set(reach INTERFACE)
@@ -138,7 +145,7 @@ endfunction()
 # takt_test_support(NAME): the test includes from tests/support.
 function(takt_test_support name)
   if(TAKT_TESTS)
-    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+    target_include_directories(${name} PRIVATE ${takt_test_folders})
   endif()
 endfunction()
 

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// "takt 0.1.0, behaviour 3, revision 26f987b12345", and what this build has and has not.
+/// "takt 0.2.0, behaviour 3, revision 26f987b12345", and what this build has and has not.
 std::string version_text() {
   std::string text =
       std::string("takt ") + takt::results::version + ", behaviour " + std::to_string(takt::results::behaviour());

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <regex>
+#include <set>
 
 #include "source_tree.hpp"
 
@@ -13,39 +15,73 @@ namespace {
 
 using Prefixes = std::vector<std::string>;
 
-/// Headers of the repository, as they are written in an #include: from the root, or from src/.
-const Prefixes kernel = {"sim/"};
+/// What values without input and output use of the kernel.
 const Prefixes base = {"sim/time.hpp", "sim/units.hpp", "sim/octets.hpp", "sim/check.hpp"};
-/// Draws are values; what draws them here draws them on a real node, too.
+/// Draws are values: a real node draws them, too.
 const Prefixes chance = {"sim/random.hpp", "sim/distribution.hpp"};
-const Prefixes models = {"models/"};
-const Prefixes protocol = {"security/",  "wire/", "uadp/",    "pubsub/", "program/",
-                           "handshake/", "dds/",  "gateway/", "opcua/"};
-const Prefixes scenario = {"scenario/"};
-const Prefixes json = {"json/"};
-const Prefixes questions = {"analysis/", "explore/", "schedule_check/", "synthesis/", "verify/"};
-const Prefixes results = {"results/"};
-const Prefixes evaluation = {"evaluation/"};
-const Prefixes explain = {"explain/"};
-const Prefixes output = {"output/"};
-const Prefixes chart = {"chart/"};
-const Prefixes study = {"study/"};
-const Prefixes cli = {"cli/"};
-const Prefixes node = {"node/"};
-const Prefixes emulate = {"emulate/"};
-const Prefixes plant = {"plant/"};
-const Prefixes application = {"application/"};
-const Prefixes papers = {"papers/"};
-const Prefixes interchange = {"interchange/"};
-const Prefixes report = {"report/"};
-const Prefixes studio = {"studio/"};
-const Prefixes schedule = {"schedule/"};
-const Prefixes interchange_schedules = {"schedule_instances/"};
 
-Prefixes all_of(std::initializer_list<Prefixes> parts) {
-  Prefixes sum;
-  for (const Prefixes& part : parts) sum.insert(sum.end(), part.begin(), part.end());
-  return sum;
+/// A wing of the house. Its modules stand in order: each may include those before it, and the wings that are named.
+struct Wing {
+  std::string folder;
+  std::vector<std::string> modules;
+  std::vector<std::string> wings;
+  Prefixes kernel;  ///< headers of sim/ and models/
+};
+
+const std::vector<Wing>& wings() {
+  const auto with_chance = [] {
+    Prefixes both = base;
+    both.insert(both.end(), chance.begin(), chance.end());
+    return both;
+  };
+  const Prefixes all = {"sim/", "models/"};
+  static const std::vector<Wing> list = {
+      {"protocol", {"uadp", "security", "program", "handshake", "pubsub", "wire", "dds", "gateway", "opcua"}, {}, base},
+      {"foundation",
+       {"json", "plant", "application", "schedule", "xml", "schedule_instances"},
+       {"protocol"},
+       with_chance()},
+      {"simulation", {"results", "scenario", "evaluation", "explain"}, {"protocol", "foundation"}, all},
+      {"questions",
+       {"analysis", "explore", "schedule_check", "verify", "synthesis"},
+       {"protocol", "foundation", "simulation"},
+       all},
+      {"presentation", {"chart", "output", "report"}, {"protocol", "foundation", "simulation", "questions"}, all},
+      {"exchange", {"interchange"}, {"protocol", "foundation", "simulation", "questions"}, all},
+      {"experiments",
+       {"study", "papers", "property"},
+       {"protocol", "foundation", "simulation", "questions", "presentation"},
+       all},
+      {"device", {"node", "emulate"}, {"protocol", "foundation"}, with_chance()},
+      {"frontends",
+       {"python", "studio", "cli"},
+       {"protocol", "foundation", "simulation", "questions", "presentation", "exchange", "experiments", "device"},
+       all}};
+  return list;
+}
+
+/// Where the rule of the wing is not the whole of it.
+struct Exception {
+  std::string module;
+  bool is_only;  ///< nothing else may be included; else this besides
+  Prefixes may_include;
+};
+
+const std::vector<Exception>& exceptions() {
+  static const std::vector<Exception> list = {
+      {"json", true, base},
+      {"schedule", true, {"sim/"}},
+      {"results", true, {"sim/time.hpp", "sim/units.hpp", "sim/octets.hpp", "sim/check.hpp", "json/"}},
+      {"chart", true, {}},
+      {"emulate", false, {"scenario/", "results/", "evaluation/"}},
+  };
+  return list;
+}
+
+const Wing* wing_named(const std::string& folder) {
+  const auto found =
+      std::find_if(wings().begin(), wings().end(), [&](const Wing& each) { return each.folder == folder; });
+  return found == wings().end() ? nullptr : &*found;
 }
 
 struct Layer {
@@ -53,54 +89,26 @@ struct Layer {
   Prefixes may_include;
 };
 
-/// The first folder that fits a file is its layer.
+/// The modules of the wings, and the two folders of the simulator.
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = [] {
-    std::vector<Layer> list = {{"sim/", kernel}, {"models/", all_of({kernel, models})}};
-    for (const std::string& folder : protocol) list.push_back({"src/" + folder, all_of({base, protocol})});
-    list.push_back({"src/foundation/plant/", all_of({base, protocol, plant, json})});
-    list.push_back({"src/foundation/application/", all_of({base, chance, json, protocol, plant, application})});
-    list.push_back({"src/device/node/", all_of({base, chance, protocol, plant, application, node, json})});
-    list.push_back({"src/foundation/json/", all_of({base, json})});
-    list.push_back({"src/simulation/results/", all_of({base, json, results})});
-    list.push_back({"src/foundation/schedule/", all_of({base, chance, schedule})});
-    list.push_back(
-        {"src/foundation/schedule_instances/", all_of({base, json, schedule, interchange_schedules, {"interchange/xml/"}})});
-    const Prefixes below = all_of({schedule, kernel, models, protocol, plant, application, json, results, scenario});
-    list.push_back({"src/simulation/scenario/", below});
-    list.push_back({"src/simulation/explain/", all_of({below, explain})});
-    // Beside the questions, but its points are results as result.json has them, and its report is drawn.
-    list.push_back(
-        {"src/experiments/study/", all_of({below, questions, evaluation, explain, output, chart, interchange_schedules, study})});
-    // A proof is put into words in one place, for instances and for scenarios.
-    list.push_back(
-        {"src/questions/synthesis/", all_of({below, questions, evaluation, explain, {"schedule_instances/proof.hpp"}})});
-    for (const std::string& folder : questions)
-      list.push_back({"src/" + folder, all_of({below, questions, evaluation, explain})});
-    list.push_back({"src/simulation/evaluation/", all_of({below, evaluation})});
-    list.push_back({"src/presentation/output/", all_of({below, questions, evaluation, explain, output})});
-    list.push_back({"src/presentation/chart/", chart});
-    list.push_back({"src/presentation/report/", all_of({below, questions, evaluation, explain, output, chart, report})});
-    list.push_back({"src/experiments/papers/", all_of({below, questions, evaluation, chart, report, papers})});
-    list.push_back({"src/experiments/property/", all_of({below, questions, evaluation, output, {"property/"}})});
-    list.push_back({"src/exchange/interchange/", all_of({below, chart, interchange, {"schedule_check/"}})});
-    list.push_back({"src/device/emulate/", all_of({below, node, emulate})});
-    list.push_back({"src/frontends/python/", all_of({below,
-                                           questions,
-                                           study,
-                                           evaluation,
-                                           explain,
-                                           output,
-                                           chart,
-                                           report,
-                                           interchange_schedules,
-                                           {"python/"}})});
-    list.push_back(
-        {"src/frontends/studio/", all_of({below, questions, study, evaluation, explain, output, chart, report, studio})});
-    list.push_back({"src/frontends/cli/", all_of({below, questions, study, evaluation, explain, output, node, emulate, report,
-                                        studio, papers, interchange, cli})});
-    list.push_back({"src/frontends/main.cpp", all_of({below, questions, study, evaluation, explain, output, node, emulate, report,
-                                            studio, papers, interchange, cli})});
+    std::vector<Layer> list = {{"sim/", {"sim/"}}, {"models/", {"sim/", "models/"}}};
+    for (const Wing& wing : wings()) {
+      Prefixes below = wing.kernel;
+      for (const std::string& name : wing.wings)
+        for (const std::string& module : wing_named(name)->modules) below.push_back(module + "/");
+      for (const std::string& module : wing.modules) {
+        below.push_back(module + "/");
+        Layer layer{"src/" + wing.folder + "/" + module + "/", below};
+        for (const Exception& each : exceptions()) {
+          if (each.module != module) continue;
+          if (each.is_only) layer.may_include = {module + "/"};
+          layer.may_include.insert(layer.may_include.end(), each.may_include.begin(), each.may_include.end());
+        }
+        list.push_back(std::move(layer));
+      }
+      list.push_back({"src/" + wing.folder + "/", below});
+    }
     return list;
   }();
   return all;
@@ -117,9 +125,8 @@ bool starts_with_any(const std::string& text, const Prefixes& prefixes) {
                      [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-bool is_protocol(const SourceFile& file) {
-  return file.path.starts_with("src/") && starts_with_any(file.path.substr(4), protocol);
-}
+bool is_protocol(const SourceFile& file) { return is_below(file.path, "src/protocol/"); }
+
 bool is_deterministic(const SourceFile& file) {
   return is_below(file.path, "sim/") || is_below(file.path, "models/") || is_protocol(file);
 }
@@ -130,25 +137,43 @@ std::vector<SourceFile> product() {
   return files;
 }
 
+/// The folders from which our headers are named.
 const std::vector<std::string>& our_roots() {
-  static const std::vector<std::string> roots = all_of({kernel,      models,
-                                                        protocol,    json,
-                                                        scenario,    questions,
-                                                        results,     evaluation,
-                                                        explain,     output,
-                                                        cli,         node,
-                                                        emulate,     plant,
-                                                        application, chart,
-                                                        report,      studio,
-                                                        papers,      study,
-                                                        schedule,    interchange_schedules,
-                                                        interchange, {"property/", "python/"}});
+  static const std::vector<std::string> roots = [] {
+    std::vector<std::string> list = {"sim/", "models/"};
+    for (const Wing& wing : wings())
+      for (const std::string& module : wing.modules) list.push_back(module + "/");
+    return list;
+  }();
   return roots;
 }
 
 TEST(Includes, EveryFileBelongsToALayer) {
   for (const SourceFile& file : product())
     EXPECT_NE(layer_of(file.path), nullptr) << file.path << ": say in includes_test.cpp what this folder may include";
+}
+
+// The folders of src/ are the wings, and those of a wing its modules: the map of ARCHITECTURE.md is the listing.
+TEST(Includes, FoldersAreWingsAndModules) {
+  namespace fs = std::filesystem;
+  const auto folders_of = [](const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+      if (entry.is_directory()) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  };
+  const fs::path source = fs::path(TAKT_SOURCE_DIR) / "src";
+  std::vector<std::string> all;
+  for (const Wing& wing : wings()) {
+    all.push_back(wing.folder);
+    std::vector<std::string> modules = wing.modules;
+    std::sort(modules.begin(), modules.end());
+    EXPECT_EQ(folders_of(source / wing.folder), modules) << wing.folder;
+    EXPECT_TRUE(fs::is_directory(fs::path(TAKT_SOURCE_DIR) / "tests" / wing.folder)) << "tests mirror the wings";
+  }
+  std::sort(all.begin(), all.end());
+  EXPECT_EQ(folders_of(source), all);
 }
 
 TEST(Includes, PointOneWay) {
@@ -164,6 +189,47 @@ TEST(Includes, PointOneWay) {
     }
   }
   EXPECT_GT(seen, 200u) << "the test no longer finds the includes";
+}
+
+/// Folders of one module that include each other. The list may only become shorter.
+const std::set<std::pair<std::string, std::string>>& known_knots() {
+  static const std::set<std::pair<std::string, std::string>> list = {
+      {"models/bridge", "models/host"},        {"models/ethernet", "models/fault"},
+      {"models/ethernet", "models/host"},      {"dds/participant", "dds/persistence"},
+      {"dds/persistence", "dds/rtps"},         {"opcua/address_space", "opcua/services"},
+      {"explore/model", "explore/properties"}, {"explore/properties", "explore/search"},
+      {"explore/report", "explore/search"},
+  };
+  return list;
+}
+
+// Folders inside a module depend on each other one way, as modules do. Files beside the folders may join them.
+TEST(Includes, FoldersInsideModulesPointOneWay) {
+  std::set<std::pair<std::string, std::string>> seen;
+  const auto folder_of = [](const std::string& header) {
+    const std::size_t module = header.find('/');
+    const std::size_t folder = module == std::string::npos ? module : header.find('/', module + 1);
+    return folder == std::string::npos ? std::string() : header.substr(0, folder);
+  };
+  for (const SourceFile& file : product()) {
+    std::string name = file.path;
+    if (name.starts_with("src/")) name = name.substr(name.find('/', 4) + 1);
+    const std::string from = folder_of(name);
+    for (const Include& include : includes_of(file)) {
+      const std::string to = folder_of(include.target);
+      const bool is_inside =
+          !from.empty() && !to.empty() && from.substr(0, from.find('/')) == to.substr(0, to.find('/'));
+      if (is_inside && from != to) seen.emplace(from, to);
+    }
+  }
+  std::set<std::pair<std::string, std::string>> knots;
+  for (const auto& [from, to] : seen)
+    if (from < to && seen.contains({to, from})) knots.emplace(from, to);
+  EXPECT_GT(seen.size(), 100u) << "the test no longer finds the includes";
+  for (const auto& [a, b] : knots)
+    EXPECT_TRUE(known_knots().contains({a, b})) << a << " and " << b << " include each other";
+  for (const auto& [a, b] : known_knots())
+    EXPECT_TRUE(knots.contains({a, b})) << a << " and " << b << ": take it off the list";
 }
 
 // Without a path nobody knows whose header it is.

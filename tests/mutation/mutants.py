@@ -87,7 +87,8 @@ class Build:
                 next(given)
             elif word != "-MD":
                 words.append(word)
-        status, _, err = run([words[0], "-I", folder / "src", *words[1:], "-O1", "-w", "-o", made, "-c", source], self.folder)
+        wings = [option for wing in sorted((ROOT / "src").iterdir()) for option in ("-I", folder / "src" / wing.name)]
+        status, _, err = run([words[0], *wings, *words[1:], "-O1", "-w", "-o", made, "-c", source], self.folder)
         return "" if status == 0 else err[:2000] or "no end"
 
     def linked(self, program, objects, made):
@@ -144,15 +145,22 @@ def fails_anyway(build, mutants):
     return said
 
 
+def spaced(text):
+    """The pattern of a piece of source, however it is spaced and wrapped."""
+    tokens = re.findall(r"\w+|\s+|[^\w\s]", text)
+    return re.compile(r"\s*".join(r"\s+" if token.isspace() else re.escape(token) for token in tokens))
+
+
 def mutated(below, mutant):
     """The changed files, by name from the sources' root on."""
     texts = {}
     for edit in mutant["edits"]:
         name = f"{below}/{edit['file']}"
         text = texts.get(name) or (ROOT / name).read_text(encoding="utf-8")
-        if text.count(edit["from"]) != 1:
-            sys.exit(f"mutants: \"{mutant['name']}\": the text to replace occurs {text.count(edit['from'])} times in {name}: {edit['from']!r}")
-        texts[name] = text.replace(edit["from"], edit["to"])
+        found = list(spaced(edit["from"]).finditer(text))
+        if len(found) != 1:
+            sys.exit(f"mutants: \"{mutant['name']}\": the text to replace occurs {len(found)} times in {name}: {edit['from']!r}")
+        texts[name] = text[:found[0].start()] + edit["to"] + text[found[0].end():]
     return texts
 
 
@@ -164,7 +172,8 @@ def compiled(build, changed, folder):
     units = {name for name in changed if name.endswith(".cpp")}
     for name in changed:
         if name.endswith(".hpp"):
-            include = f'"{pathlib.PurePath(name).relative_to("src")}"'
+            path = pathlib.PurePath(name)
+            include = f'"{path.relative_to(*path.parts[:2]) if path.parts[0] == "src" else path}"'
             units |= {str(each.relative_to(ROOT)) for each in (ROOT / name).parent.glob("*.cpp") if include in each.read_text(encoding="utf-8")}
     made = []
     for output in sorted({build.objects[unit] for unit in units}):

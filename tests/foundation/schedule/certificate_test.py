@@ -88,7 +88,7 @@ class Clausal(unittest.TestCase):
         self.assertEqual(clauses[-1], [])
 
     def test_no_certificate_is_rejected(self):
-        folder = pathlib.Path(__file__).parents[1] / "findings"
+        folder = pathlib.Path(__file__).parents[2] / "findings"
         for seed in "1", "3":
             done = subprocess.run([TAKT, "schedule", folder / "09999_task.csv", folder / "09999_topo.csv", "--seed", seed],
                                   capture_output=True, text=True, check=False)

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "../handshake/dice.hpp"
+#include "../../protocol/handshake/dice.hpp"
 #include "evaluation/evaluate.hpp"
 #include "support.hpp"
 

@@ -243,7 +243,7 @@ class ServerTest(unittest.TestCase):
         self.assertLessEqual(said.count("what is no message of UA-TCP"), 1)
 
     def test_example(self):
-        example = HERE.parent.parent.parent / "docs" / "nodes" / "opcua-server.json"
+        example = HERE.parent.parent.parent.parent / "docs" / "nodes" / "opcua-server.json"
         self.assertEqual(subprocess.run([TAKT, "node", "--check", str(example)], check=False).returncode, 0)
 
     def test_files_that_others_may_read(self):

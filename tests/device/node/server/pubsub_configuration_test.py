@@ -14,7 +14,7 @@ import unittest
 
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path += [str(HERE), str(HERE.parent.parent / "cli")]
+sys.path += [str(HERE), str(HERE.parent.parent.parent / "frontends" / "cli")]
 import opcua_server_test as client  # noqa: E402
 import pubsub_configuration  # noqa: E402
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nested groups and joining slaves: verdicts and numbers of states, the observer of the tree, and the same walks with
 // the handshake's own.
-#include "../../handshake/tree.hpp"
+#include "../../../protocol/handshake/tree.hpp"
 
 #include <gtest/gtest.h>
 

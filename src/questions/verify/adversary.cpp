@@ -22,6 +22,9 @@ constexpr std::uint64_t most_seeds = 64;
 constexpr std::uint64_t most_anywhere = 16;
 constexpr std::uint64_t seeds_of_a_chain = 5;
 constexpr std::uint64_t most_combinations = 4096;
+/// A climb comes by each variable so often, if it can.
+constexpr std::uint64_t rounds_of_a_climb = 3;
+constexpr std::uint64_t fewest_values = 6;
 /// Where not even so many runs are affordable, the first ones count most.
 constexpr std::size_t most_guesses = 64;
 
@@ -237,10 +240,12 @@ class Searcher {
       better = false;
       std::vector<MeetingLog::Visit> met;
       if (is_of_frames) met = trials_.meetings_of(at).value_or(std::vector<MeetingLog::Visit>());
+      const std::uint64_t of_each = std::max(
+          fewest_values, trials_.affordable_runs() / (rounds_of_a_climb * std::max<std::size_t>(1, free.size())));
       for (const std::size_t f : free) {
         if (!trials_.is_affordable()) break;
         std::vector<Choice> steps;
-        for (const Duration value : instants_.of(f, requirement, at, met)) {
+        for (const Duration value : instants_.of(f, requirement, at, met, of_each)) {
           if (value == at.values[f]) continue;
           steps.push_back(at);
           steps.back().values[f] = value;

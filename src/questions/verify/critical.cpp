@@ -239,33 +239,39 @@ std::vector<std::size_t> CriticalInstants::variables_for(const results::Requirem
 }
 
 std::vector<Duration> CriticalInstants::of_meetings(std::size_t f, const Choice& choice,
-                                                    std::span<const MeetingLog::Visit> met,
-                                                    std::optional<std::uint32_t> near) const {
+                                                    std::span<const MeetingLog::Visit> met) const {
+  return meetings_in({}, f, choice, met);
+}
+
+CriticalInstants::Window CriticalInstants::around_slowest(std::uint32_t stream,
+                                                          std::span<const MeetingLog::Visit> met) {
+  Window window;
+  Duration longest = Duration::from_ps(-1);
+  for (const MeetingLog::Visit& visit : met)
+    if (visit.stream == stream && visit.started != sim::TrueTime::never() && visit.started - visit.produced > longest) {
+      longest = visit.started - visit.produced;
+      window = {stream, visit.produced, visit.produced - longest, visit.started};
+    }
+  return window;
+}
+
+std::vector<Duration> CriticalInstants::meetings_in(const Window& window, std::size_t f, const Choice& choice,
+                                                    std::span<const MeetingLog::Visit> met) const {
   const FreeVariable& variable = variables_[f];
   std::vector<Duration> values;
   if (variable.kind != FreeVariable::Kind::talker && variable.kind != FreeVariable::Kind::publisher) return values;
-  sim::TrueTime begin = sim::TrueTime::from_ps(0);
-  sim::TrueTime end = sim::TrueTime::never();
-  if (near) {
-    Duration longest = Duration::from_ps(-1);
-    for (const MeetingLog::Visit& visit : met)
-      if (visit.stream == *near && visit.started != sim::TrueTime::never() &&
-          visit.started - visit.produced > longest) {
-        longest = visit.started - visit.produced;
-        begin = visit.produced - longest;
-        end = visit.started;
-      }
-  }
   for (const std::size_t moved : streams_moved_by(f)) {
     std::map<std::uint32_t, std::set<Duration>> delays;  // by port, of its own frames
     for (const MeetingLog::Visit& visit : met)
       if (visit.stream == moved) delays[visit.port].insert(visit.came - visit.produced);
     for (const MeetingLog::Visit& visit : met) {
-      if (visit.stream == moved) continue;
+      if (visit.stream == moved || (window.stream && visit.stream != *window.stream) ||
+          (window.produced && visit.produced != *window.produced))
+        continue;
       const auto here = delays.find(visit.port);
       if (here == delays.end()) continue;
       for (const sim::TrueTime instant : {visit.came, visit.started}) {
-        if (instant == sim::TrueTime::never() || instant < begin || instant > end) continue;
+        if (instant == sim::TrueTime::never() || instant < window.begin || instant > window.end) continue;
         for (const Duration delay : here->second)
           for (const Duration apart : {-just_, just_})
             values.push_back(modulo(instant.since_start() - delay + apart, variable.range));
@@ -279,7 +285,8 @@ std::vector<Duration> CriticalInstants::of_meetings(std::size_t f, const Choice&
 }
 
 std::vector<Duration> CriticalInstants::of(std::size_t f, const results::RequirementResult& requirement,
-                                           const Choice& choice, std::span<const MeetingLog::Visit> met) const {
+                                           const Choice& choice, std::span<const MeetingLog::Visit> met,
+                                           std::size_t most) const {
   const FreeVariable& variable = variables_[f];
   std::vector<Duration> values{choice.values[f]};
   const auto add = [&](Duration value) { values.push_back(modulo(value, variable.range)); };
@@ -306,13 +313,35 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
     }
   }
   const std::vector<std::size_t> targets = streams_of(requirement);
+  Window slowest;
+  const auto add_meetings = [&] {
+    const std::vector<Duration> meetings = meetings_in(slowest, f, choice, met);
+    values.insert(values.end(), meetings.begin(),
+                  meetings.begin() + static_cast<std::ptrdiff_t>(std::min(meetings.size(), most_values)));
+  };
+  const auto add_meetings_of_others = [&] {
+    slowest.stream.reset();
+    slowest.produced.reset();
+    add_meetings();
+  };
+  const std::vector<std::size_t> all_moved = streams_moved_by(f);
+  // The likeliest first: a frame meets the slowest one itself, or that one others.
+  if (!met.empty() && !targets.empty()) {
+    slowest = around_slowest(static_cast<std::uint32_t>(targets.front()), met);
+    const bool is_own = std::ranges::find(all_moved, targets.front()) != all_moved.end();
+    if (is_own)
+      add_meetings_of_others();
+    else
+      add_meetings();
+  }
+  const std::size_t with_slowest = values.size();
   // A disturbing frame comes just before that of the requirement, or that of the requirement just behind a disturbing
   // one.
   const auto meet = [&](std::size_t moved, std::size_t other, Duration shift) {
     if (moved == other || timings_[other].period == Duration()) return;
     for (const Visit& visit : visits_[moved])
       for (const Visit& theirs : visits_[other])
-        if (theirs.port == visit.port && values.size() < most_values)
+        if (theirs.port == visit.port && values.size() - with_slowest < most_values)
           for (const Duration apart : {Duration(), shift}) {
             const Duration instant = phase_of(other, choice) + theirs.after - visit.after + apart;
             if (variable.kind != FreeVariable::Kind::jitter)
@@ -323,7 +352,7 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
               add(late);
           }
   };
-  for (const std::size_t moved : streams_moved_by(f)) {
+  for (const std::size_t moved : all_moved) {
     if (std::find(targets.begin(), targets.end(), moved) == targets.end())
       for (const std::size_t target : targets) meet(moved, target, -just_);
     else
@@ -337,15 +366,13 @@ std::vector<Duration> CriticalInstants::of(std::size_t f, const results::Require
       if (arrivals_[other.state.value].contains(mine.node.value))
         add(phase_of(other.state.value, choice) + time_to(other.state.value, mine.node) - wake_up.greatest() - just_);
   }
-  if (!met.empty() && !targets.empty()) {
-    const std::vector<Duration> meetings = of_meetings(f, choice, met, static_cast<std::uint32_t>(targets.front()));
-    values.insert(values.end(), meetings.begin(),
-                  meetings.begin() + static_cast<std::ptrdiff_t>(std::min(meetings.size(), most_values)));
-  }
   for (std::int64_t part = 0; part < parts_of_range; ++part) add(variable.range * part / parts_of_range);
   if (variable.kind == FreeVariable::Kind::jitter) add(variable.range - Duration::from_ps(1));
+  if (slowest.stream) add_meetings_of_others();  // meanwhile, which the slowest one may have waited for
+  std::set<Duration> seen;
+  std::erase_if(values, [&](Duration value) { return !seen.insert(value).second; });
+  if (values.size() > most) values.resize(most);
   std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 

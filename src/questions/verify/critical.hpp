@@ -27,15 +27,16 @@ class CriticalInstants {
   /// meets another one as that comes to a port, or as it starts there.
   /// A publisher publishes just before it hears a word. Phases and calls are tried all over their range too: a call
   /// just behind the publishing instant of its participant waits longest.
+  /// Where more than `most` phases are known, those remain at which the slowest frame itself is met, then those of
+  /// frames that have not waited.
   std::vector<sim::Duration> of(std::size_t variable, const results::RequirementResult& requirement,
-                                const Choice& choice, std::span<const MeetingLog::Visit> met = {}) const;
+                                const Choice& choice, std::span<const MeetingLog::Visit> met = {},
+                                std::size_t most = ~std::size_t{0}) const;
 
   /// Phases of a talker at which one of its frames comes to a port just before or just behind an instant at which
-  /// another one came or started there, in a run of `choice`. `near`: what one frame of that stream
-  /// may have met alone, the slowest; nothing: all frames.
+  /// another one came or started there, in a run of `choice`.
   std::vector<sim::Duration> of_meetings(std::size_t variable, const Choice& choice,
-                                         std::span<const MeetingLog::Visit> met,
-                                         std::optional<std::uint32_t> near = {}) const;
+                                         std::span<const MeetingLog::Visit> met) const;
 
   /// Each call that the requirement is about comes just behind a publication of its participant; `slowly`: whose timer
   /// was late.
@@ -60,6 +61,17 @@ class CriticalInstants {
     std::uint64_t port = 0;
     sim::Duration after;  // from the talker's instant, without waiting
   };
+  /// Frames that a search looks at, by their stream and instants.
+  struct Window {
+    std::optional<std::uint32_t> stream;    // nothing: all frames
+    std::optional<sim::TrueTime> produced;  // of one frame
+    sim::TrueTime begin = sim::TrueTime::from_ps(0);
+    sim::TrueTime end = sim::TrueTime::never();
+  };
+  /// What the slowest frame of that stream may have met.
+  static Window around_slowest(std::uint32_t stream, std::span<const MeetingLog::Visit> met);
+  std::vector<sim::Duration> meetings_in(const Window& window, std::size_t variable, const Choice& choice,
+                                         std::span<const MeetingLog::Visit> met) const;
   sim::Duration phase_of(std::size_t stream, const Choice& choice) const;
   std::optional<std::size_t> phase_variable(std::size_t program, std::size_t participant) const;
   bool is_called(const scenario::ScriptEntry& entry, const results::RequirementResult& requirement) const;

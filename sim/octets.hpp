@@ -159,7 +159,7 @@ class OctetWriter {
     store(target_.data() + position, number, order_);
   }
   /// Takes back what was written after a former position(), and that it did not fit.
-  void take_back_to(std::size_t position) {
+  void rewind_to(std::size_t position) {
     TAKT_CHECK(position <= used_, "only what was written is taken back");
     used_ = position;
     overflowed_ = false;

@@ -210,7 +210,7 @@ class Outputs {
       if (file.name.ends_with(".json"))
         expect_output(json::parse(file.content, name, diagnostics).has_value(), diagnostics.to_text());
       if (file.name.ends_with(".xml") || file.name.ends_with(".graphml") || file.name.ends_with(".svg"))
-        expect_output(interchange::parse_xml(file.content, name, diagnostics).has_value(), diagnostics.to_text());
+        expect_output(parse_xml(file.content, name, diagnostics).has_value(), diagnostics.to_text());
       if (file.name.ends_with(".csv")) rows_of(file.content, name);
       if (!file.name.ends_with(".sh")) continue;
       std::vector<interchange::Remark> remarks;

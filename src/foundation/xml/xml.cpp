@@ -8,7 +8,7 @@
 
 #include "json/node.hpp"
 
-namespace takt::interchange {
+namespace takt {
 namespace {
 
 /// Between a namespace and a name, and a name and its prefix; no name has it.
@@ -181,4 +181,4 @@ std::string xml_escaped(std::string_view text) {
   return escaped;
 }
 
-}  // namespace takt::interchange
+}  // namespace takt

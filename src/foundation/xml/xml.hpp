@@ -9,7 +9,7 @@
 
 #include "json/diagnostics.hpp"
 
-namespace takt::interchange {
+namespace takt {
 
 struct XmlAttribute {
   std::string name_space;  ///< empty without a prefix
@@ -40,4 +40,4 @@ std::optional<std::vector<XmlElement>> parse_xml(std::string_view text, const st
 /// The text with &, <, > and " as entities: for character data and for values of attributes in double quotes.
 std::string xml_escaped(std::string_view text);
 
-}  // namespace takt::interchange
+}  // namespace takt

@@ -40,8 +40,8 @@ TEST(Tree, NoFileHoldsTooMuch) {
   // The tables of one schema, a line a node: there is nothing to divide but lines.
   const std::string table = "src/exchange/interchange/yang/schema.cpp";
   for (const SourceFile& file : everything())
-    if (file.path != table)
-      EXPECT_LE(file.lines.size(), most_lines) << file.path << ": a file of this length holds two concepts";
+    EXPECT_TRUE(file.path == table || file.lines.size() <= most_lines)
+        << file.path << ": a file of this length holds two concepts";
 }
 
 TEST(Tree, NoTabsAndNoSpacesAtTheEnds) {

@@ -16,7 +16,7 @@
 namespace takt::interchange {
 namespace {
 
-using schedules::Content;
+using schedule_instances::Content;
 
 constexpr SettingInfo gates_setting{
     "gates", "none|auto", "none",
@@ -38,12 +38,12 @@ struct Family {
 };
 
 /// The files that are instances; what does not belong to the format is told.
-std::vector<schedules::TextFile> instance_files(const ImportRequest& request, const Family& family,
+std::vector<schedule_instances::TextFile> instance_files(const ImportRequest& request, const Family& family,
                                                 json::Diagnostics& diagnostics, std::vector<const InputFile*>& others) {
-  std::vector<schedules::TextFile> files;
+  std::vector<schedule_instances::TextFile> files;
   for (const InputFile& each : request.files) {
-    schedules::TextFile file{each.name, each.text};
-    const Content content = is_names_file(each) ? Content::other : schedules::content_of(file);
+    schedule_instances::TextFile file{each.name, each.text};
+    const Content content = is_names_file(each) ? Content::other : schedule_instances::content_of(file);
     if (std::ranges::find(family.contents, content) != family.contents.end())
       files.push_back(std::move(file));
     else
@@ -51,14 +51,14 @@ std::vector<schedules::TextFile> instance_files(const ImportRequest& request, co
   }
   if (files.empty() && !others.empty() && !is_names_file(*others.front())) {
     // A text that is not even JSON or XML says why.
-    schedules::InstanceReader reader(std::vector<schedules::TextFile>{{others.front()->name, others.front()->text}});
-    if (schedules::content_of({others.front()->name, others.front()->text}) == Content::other) reader.next(diagnostics);
+    schedule_instances::InstanceReader reader(std::vector<schedule_instances::TextFile>{{others.front()->name, others.front()->text}});
+    if (schedule_instances::content_of({others.front()->name, others.front()->text}) == Content::other) reader.next(diagnostics);
   }
   return files;
 }
 
 Imported import_instance(const ImportRequest& request, const Family& family, json::Diagnostics& diagnostics,
-                         schedules::GraphmlAssumptions assumptions = {}) {
+                         schedule_instances::GraphmlAssumptions assumptions = {}) {
   Imported imported;
   std::vector<const InputFile*> others;
   auto files = instance_files(request, family, diagnostics, others);
@@ -97,7 +97,7 @@ Imported import_instance(const ImportRequest& request, const Family& family, jso
       json::decode_value(*document->root().find("takt"), extras.emplace(), reader);
       documents.push_back(*document);
     }
-  schedules::InstanceReader reader(std::move(files), assumptions);
+  schedule_instances::InstanceReader reader(std::move(files), assumptions);
   const auto instance = reader.next_instance(diagnostics);
   if (!instance) {
     diagnostics.error_unless(diagnostics.has_errors(), {request.files.front().name, 1, 1, ""},
@@ -109,7 +109,7 @@ Imported import_instance(const ImportRequest& request, const Family& family, jso
                       {"more than one", "one instance: it becomes one scenario"});
   std::optional<schedule::Solution> solution;
   if (solution_document) {
-    solution = schedules::read_solution(*solution_document, instance->problem, diagnostics);
+    solution = schedule_instances::read_solution(*solution_document, instance->problem, diagnostics);
     // Whoever wrote it: what is no schedule of the problem is refused, in the words of the checker.
     if (!diagnostics.has_errors())
       if (const auto wrong = schedule_check::check(instance->problem, *solution); !wrong.empty())
@@ -166,7 +166,7 @@ Imported import_ecrts(const ImportRequest& request, json::Diagnostics& diagnosti
 }
 
 Imported import_applications(const ImportRequest& request, json::Diagnostics& diagnostics) {
-  schedules::GraphmlAssumptions assumptions;
+  schedule_instances::GraphmlAssumptions assumptions;
   const auto rate = json::parse_data_rate(request.settings["rate"]);
   const auto hyperperiod = json::parse_duration(request.settings["hyperperiod"]);
   if (!rate || (*rate).bits_per_second < 1'000'000)

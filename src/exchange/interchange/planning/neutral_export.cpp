@@ -10,7 +10,7 @@ namespace takt::interchange {
 Exported export_neutral(const ExportRequest& request) {
   Exported exported;
   const PlanningProblem made = problem_of(request.resolved, exported);
-  json::Node node = schedules::write_problem(made.problem);
+  json::Node node = schedule_instances::write_problem(made.problem);
   node.add("takt", json::encode_value(made.extras));
   if (!exported.losses.empty()) {
     json::Node& losses = node.add("cannot_be_said", json::Node::array());

@@ -22,7 +22,7 @@ struct PlanningProblem {
 PlanningProblem problem_of(const scenario::Resolved& resolved, Exported& exported);
 
 struct ProblemToScenario {
-  const schedules::Instance& instance;
+  const schedule_instances::Instance& instance;
   const schedule::Solution* solution = nullptr;
   const PlanningExtras* extras = nullptr;
   bool has_classes = true;   ///< the format says the class of each stream; otherwise the extras do

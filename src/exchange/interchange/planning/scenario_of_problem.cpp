@@ -427,7 +427,7 @@ class ScenarioMaker {
  private:
   const ProblemToScenario& from_;
   const schedule::Problem& problem_;
-  const schedules::Places& places_;
+  const schedule_instances::Places& places_;
   Imported& imported_;
   json::Diagnostics& diagnostics_;
   scenario::Scenario made_;

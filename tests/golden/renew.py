@@ -9,7 +9,7 @@ usage: renew.py BUILD_FOLDER [--hour] [--because TEXT]     renews the digests, a
 BUILD_FOLDER holds takt and takt_runs_test of the changed sources. Renewed are tests/golden/scenario_digests.txt, what the pages show of
 outputs (tests/docs/renew.py) and, with --hour (an hour simulated, some minutes), the digest in docs/papers/programs.md. The commit says why they change.
 
-The number of behaviour is the number of lines in src/results/behaviours.inc; --because adds one: "cut-through starts
+The number of behaviour is the number of lines in src/simulation/results/behaviours.inc; --because adds one: "cut-through starts
 behind closed gates, too". tests/golden/behaviour.txt holds it beside what it is the number of: a hash of the pinned
 digests and one of docs/reference/result.md, where the meaning of each figure stands. --same keeps the number: there are
 only new scenarios, new figures or better words. Lines that two branches add to both files are all kept, so each branch
@@ -27,7 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PIN = "[0-9a-f]{16}"
 DIGESTS = "tests/golden/scenario_digests.txt"
 MEANINGS = "docs/reference/result.md"
-REASONS = "src/results/behaviours.inc"
+REASONS = "src/simulation/results/behaviours.inc"
 NOTED = "tests/golden/behaviour.txt"
 HEAD = "# number of behaviour, hash of the pinned digests, hash of the meanings of figures (tests/golden/renew.py)\n"
 

@@ -45,7 +45,7 @@ struct FigureText {
 ///   reaction.KIND.TAKE   durations of reactions that nothing superseded; TAKE is max, min, mean, sum or count
 ///   latency.STREAM.FIGURE and latency.FIGURE (of all streams); FIGURE is max, p99, p50, mean, min or stddev
 ///   dropped  lost  delivered  violations  events  verdict (1: pass)  utilisation  queue  sync
-///   topology.FIGURE      switches, links, diameter, bridges, disjoint_paths (topology/graph_figures.hpp)
+///   topology.FIGURE      switches, links, diameter, bridges, disjoint_paths (figures/graph_figures.hpp)
 /// The unit of a time is us if none is said; that of a share may be %; all else is a label.
 std::optional<Figure> read_figure(const FigureText& text, json::Diagnostics& diagnostics);
 

@@ -22,7 +22,7 @@
 
 namespace takt::scenario {
 
-struct ResolvedDds;     // applications/resolved_dds.hpp
+struct ResolvedDds;     // resolved/resolved_dds.hpp
 struct RequiredFigure;  // figures/requirement.hpp
 
 /// What a stream asks of the links: long-term averages, for check and for refusing overload.

@@ -1,5 +1,5 @@
 /*
- * The handshake `robust` (src/handshake/README.md) once more, for SPIN: one master and N slaves in a star, every channel a register
+ * The handshake `robust` (src/protocol/handshake/README.md) once more, for SPIN: one master and N slaves in a star, every channel a register
  * that holds the last published word, calls and faults (loss, crash) from budgets, everybody switched on at the beginning.
  *
  *   spin -a -DN=2 -DCALLS=2 -DFAULTS=1 robust.pml && gcc -O2 -DSAFETY -DNOREDUCE -o pan pan.c && ./pan -m1000000

@@ -128,10 +128,26 @@ class FixedPoint {
         comes = sum(result_.hops[parent].leaves->first, graph_.ports[graph_.hops[parent].port].propagation, hop.beyond,
                     r_.plan.nodes[port.node.value].greatest_forwarding_delay().ps()) -
                 ahead_[h].value_or(0);
+      comes = sum(comes, copies_ahead(h));
       result_.hops[h].leaves =
           ArrivalPhase{sum(comes, port.octet_time * (models::wire_length(hop.frame) - models::inter_packet_gap).count),
                        flow.produced->period, 0};
     }
+  }
+
+  /// At the talker, how long the copies of a frame that leave before this one occupy the port, at least: they come at
+  /// the same instant into the same queue, in the order of the hops.
+  Ps copies_ahead(std::uint32_t h) const {
+    const Hop& hop = graph_.hops[h];
+    if (!hop.parents.empty() || hop.lowest_class != hop.highest_class) return 0;
+    Ps ahead = 0;
+    for (const std::uint32_t each : graph_.flows[hop.flow].hops) {
+      const Hop& copy = graph_.hops[each];
+      const bool is_before = each < h && copy.port == hop.port && copy.parents.empty() &&
+                             copy.lowest_class == hop.lowest_class && copy.highest_class == hop.lowest_class;
+      if (is_before) ahead += graph_.ports[hop.port].octet_time * models::wire_length(copy.shortest).count;
+    }
+    return ahead;
   }
 
   static bool is_held(const Hop& hop) { return hop.ats && hop.ats->is_minded; }
@@ -181,7 +197,7 @@ class FixedPoint {
           continue;
         }
         hop.delay = graph_.hops[hops[i]].unsupported.empty() && hop.reason.empty() ? bound.delay : unbounded_ps;
-        hop.least_delay = bound.least_delay;
+        hop.least_delay = std::min(hop.delay, sum(bound.least_delay, copies_ahead(hops[i])));
         if (const auto& ahead = ahead_[hops[i]]; cuts && ahead && is_bounded(hop.delay))
           hop.delay = hop.least_delay = hop.delay - *ahead;
         hop.leaves = is_bounded(hop.delay) ? bound.leaves : std::nullopt;

@@ -85,5 +85,17 @@ TEST(SurvivingCopies, IndividualRecoveryIsNotTrustedBehindAnOutage) {
   EXPECT_FALSE(look(cut("st1", "st2", "10ms", "20ms"), R"({"individual": true})").reaches_all);
 }
 
+// The copies of h5 leave one behind the other, so the second one comes into its own window and not into the first one's.
+TEST(SurvivingCopies, CopiesOfOneTalkerComeInTheirOrder) {
+  json::Diagnostics diagnostics;
+  const auto resolved =
+      scenario::load_file(std::string(TAKT_SOURCE_DIR) + "/tests/findings/frer-multicast.json", {}, diagnostics);
+  ASSERT_TRUE(resolved) << diagnostics.to_text();
+  const Bounds bounds = bound(*resolved);
+  EXPECT_EQ(bounds.streams[0].latency, sim::Duration::from_ps(17'876'000));  // what a run shows
+  // The longest path: behind the other copy at the talker, then by six switches the other way round.
+  EXPECT_EQ(bounds.streams[1].latency, sim::Duration::from_ps(36'142'000));
+}
+
 }  // namespace
 }  // namespace takt::analysis::surviving_copies_test

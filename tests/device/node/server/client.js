@@ -242,6 +242,23 @@ const checks = {
     console.log(`${all.length} sessions`);
   },
 
+  // All at once, and all at once again: whoever has to wait for the server's key waits, and is let in.
+  async returning() {
+    const come = async () => {
+      const client = await makeClient(secure);
+      await client.connect(given.endpoints.plc);
+      const session = await client.createSession({ type: UserTokenType.UserName, userName: given.operator.name, password: given.operator.password });
+      assert.strictEqual(await value(session, "CurrentState.Number"), 11);
+      return client;
+    };
+    for (let round = 0; round < 2; round++) {
+      const begin = Date.now();
+      const clients = await Promise.all(Array.from({ length: given.count }, come));
+      console.log(`${clients.length} at once within ${Date.now() - begin} ms`);
+      await Promise.all(clients.map((client) => client.disconnect()));
+    }
+  },
+
   // From a call by a client on this machine to the first frame that follows from it: client, TCP, decryption, hand-over, handshake, UDP.
   async frames() {
     const socket = require("dgram").createSocket("udp4");

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // takt studio: a scenario in a browser, with what is known of it beside it.
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -22,7 +27,19 @@ namespace {
 struct StudioOptions {
   std::string file = "scenario.json";
   std::uint32_t port = 0;
+  bool opens = false;
 };
+
+/// By the browser of the desktop, which goes on when takt ends.
+void open_in_browser(const std::string& page) {
+  std::string path = page;
+  std::string shell = "sh";
+  std::string option = "-c";
+  std::string command = "xdg-open \"$1\" >/dev/null 2>&1 &";
+  std::array<char*, 6> words = {shell.data(), option.data(), command.data(), shell.data(), path.data(), nullptr};
+  pid_t child = 0;
+  if (::posix_spawnp(&child, "sh", nullptr, nullptr, words.data(), environ) == 0) ::waitpid(child, nullptr, 0);
+}
 
 ExitStatus run(const StudioOptions& options) {
   const studio::Assets assets = studio::built_in_assets();
@@ -64,6 +81,13 @@ ExitStatus run(const StudioOptions& options) {
   const InterruptGuard interrupt;
   std::printf("%s\n", server->address().c_str());
   std::fflush(stdout);
+  if (options.opens) {
+    if (const auto door = memory.door(server->address()))
+      open_in_browser(*door);
+    else
+      std::fputs("takt studio: no private folder for the page that a browser opens: open the address by hand\n",
+                 stderr);
+  }
   // Signals only set a flag, so somebody has to look at it.
   std::jthread watch([&](const std::stop_token& ends) {
     try {
@@ -89,6 +113,7 @@ void add_studio_command(Command app, ExitStatus& status) {
   command.add_option("--port", options->port, "Port of 127.0.0.1; any free one if it is not given")
       .type_name("PORT")
       .between(0u, 65535u);
+  command.add_flag("--open", options->opens, "Also open it with xdg-open, which does not see the token");
   command.footer(
       "Prints an address for a browser of this machine, and answers there until Ctrl-C. The address has a token: "
       "whoever has it can do what you can.\n"

@@ -77,19 +77,35 @@ std::optional<Address> AddressMemory::last() const {
   return address;
 }
 
-void AddressMemory::keep(const Address& address) const {
-  if (!is_private_folder(folder_)) return;
-  const std::string temporary = path_ + "." + std::to_string(::getpid());
+bool AddressMemory::write(const std::string& path, const std::string& content) const {
+  if (!is_private_folder(folder_)) return false;
+  const std::string temporary = path + "." + std::to_string(::getpid());
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (file < 0) return;
-  const std::string content = std::to_string(address.port) + " " + address.token;
+  if (file < 0) return false;
   const bool is_whole = ::write(file, content.data(), content.size()) == static_cast<ssize_t>(content.size());
   ::close(file);
-  if (!is_whole || std::rename(temporary.c_str(), path_.c_str()) != 0) ::unlink(temporary.c_str());
+  if (is_whole && std::rename(temporary.c_str(), path.c_str()) == 0) return true;
+  ::unlink(temporary.c_str());
+  return false;
+}
+
+void AddressMemory::keep(const Address& address) const {
+  write(path_, std::to_string(address.port) + " " + address.token);
+}
+
+std::optional<std::string> AddressMemory::door(const std::string& address) const {
+  std::string path = path_ + ".html";
+  const std::string page =
+      "<!doctype html><meta charset=\"utf-8\"><title>takt studio</title><meta name=\"referrer\" "
+      "content=\"no-referrer\"><meta http-equiv=\"refresh\" content=\"0; url=" +
+      address + "\"><a href=\"" + address + "\">takt studio</a>\n";
+  return write(path, page) ? std::optional(std::move(path)) : std::nullopt;
 }
 
 void AddressMemory::forget(const Address& own) const {
-  if (const auto kept = last(); kept && kept->token == own.token) ::unlink(path_.c_str());
+  if (const auto kept = last(); !kept || kept->token != own.token) return;
+  ::unlink(path_.c_str());
+  ::unlink((path_ + ".html").c_str());
 }
 
 }  // namespace takt::studio

@@ -24,10 +24,15 @@ class AddressMemory {
   explicit AddressMemory(const std::string& scenario);
   std::optional<Address> last() const;
   void keep(const Address& address) const;
+  /// The path of a page that leads to the address: a browser is given that, since command lines are everybody's to
+  /// read. Nothing if it cannot be written.
+  std::optional<std::string> door(const std::string& address) const;
   /// An engine that ends in good order leaves nothing; what another one has kept stays.
   void forget(const Address& own) const;
 
  private:
+  bool write(const std::string& path, const std::string& content) const;
+
   std::string folder_;
   std::string path_;
 };

@@ -6,6 +6,10 @@
 #include "security/secret.hpp"
 
 namespace takt::studio {
+namespace {
+constexpr std::size_t connection_threads = 160;
+}
+
 class Server::Routes {
  public:
   Routes(Interface& interface, const Assets& assets, std::string token)
@@ -16,8 +20,12 @@ class Server::Routes {
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
     server_.set_payload_max_length(most_text);
-    server_.set_read_timeout(10);
+    // A connection has a thread as long as it lasts. Those of other programs of this machine that say nothing go soon,
+    // and are too few to keep the page waiting.
+    server_.new_task_queue = [] { return new httplib::ThreadPool(connection_threads); };
+    server_.set_read_timeout(2);
     server_.set_write_timeout(10);
+    server_.set_keep_alive_timeout(2);
     server_.set_keep_alive_max_count(1000);
     server_.set_default_headers({{"Content-Security-Policy",
                                   "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src "

@@ -15,6 +15,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 
@@ -56,6 +57,50 @@ class ServerTest(unittest.TestCase):
         if self.studio.process.poll() is None:
             self.assertEqual(self.studio.stop(), 0)
         shutil.rmtree(self.folder)
+
+    def test_silent_connections_keep_nobody_waiting(self):
+        # With few threads an answer came when most of the silent ones had been closed. A machine that stalls may try again.
+        def still_open():
+            silent = [socket.create_connection(("127.0.0.1", self.studio.port)) for _ in range(64)]
+            self.assertEqual(self.studio.ask("GET", "/api/file")[0], 200)
+            count = sum(self.is_open(each) for each in silent)
+            for each in silent:
+                each.close()
+            return count
+        self.assertTrue(any(still_open() > 32 for _ in range(5)))
+
+    @staticmethod
+    def is_open(connection):
+        connection.setblocking(False)
+        try:
+            return connection.recv(1, socket.MSG_PEEK) != b""
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+
+    def test_a_browser_is_given_a_page_and_not_the_token(self):
+        seen = self.folder / "seen"
+        tools = self.folder / "tools"
+        tools.mkdir()
+        (tools / "xdg-open").write_text(f'#!/bin/sh\nstat -c %a "$1" > "{seen}.part"; echo "$@" >> "{seen}.part"; cat "$1" >> "{seen}.part"; mv "{seen}.part" "{seen}"\n')
+        (tools / "xdg-open").chmod(0o755)
+        private = self.folder / "run"
+        private.mkdir(mode=0o700)
+        environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}", "XDG_RUNTIME_DIR": str(private)}
+        process = subprocess.Popen([TAKT, "studio", self.folder / "other.json", "--open"], stdout=subprocess.PIPE, text=True, env=environment)
+        address = process.stdout.readline().strip()
+        while not seen.exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.05)
+        mode, arguments, page = seen.read_text().split("\n", 2)
+        self.assertEqual(mode, "600")
+        self.assertNotIn(address.split("token=")[1], arguments)
+        self.assertIn(f"url={address}", page)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(60), 0)
+        process.stdout.close()
+        self.assertEqual(list(private.iterdir()), [])
 
     def test_the_address_opens_the_page_and_nothing_else_does(self):
         ask, token = self.studio.ask, self.studio.token

@@ -59,7 +59,8 @@ class ServerTest(unittest.TestCase):
         shutil.rmtree(self.folder)
 
     def test_silent_connections_keep_nobody_waiting(self):
-        # With few threads an answer came when most of the silent ones had been closed. A machine that stalls may try again.
+        # With few threads an answer came when most of the silent ones had been closed.
+        # A machine that stalls may try again.
         def still_open():
             silent = [socket.create_connection(("127.0.0.1", self.studio.port)) for _ in range(64)]
             self.assertEqual(self.studio.ask("GET", "/api/file")[0], 200)
@@ -83,12 +84,14 @@ class ServerTest(unittest.TestCase):
         seen = self.folder / "seen"
         tools = self.folder / "tools"
         tools.mkdir()
-        (tools / "xdg-open").write_text(f'#!/bin/sh\nstat -c %a "$1" > "{seen}.part"; echo "$@" >> "{seen}.part"; cat "$1" >> "{seen}.part"; mv "{seen}.part" "{seen}"\n')
+        part = f"{seen}.part"
+        (tools / "xdg-open").write_text(f'#!/bin/sh\n(stat -c %a "$1"; echo "$@"; cat "$1") > "{part}"\nmv "{part}" "{seen}"\n')
         (tools / "xdg-open").chmod(0o755)
         private = self.folder / "run"
         private.mkdir(mode=0o700)
         environment = os.environ | {"PATH": f"{tools}:{os.environ['PATH']}", "XDG_RUNTIME_DIR": str(private)}
-        process = subprocess.Popen([TAKT, "studio", self.folder / "other.json", "--open"], stdout=subprocess.PIPE, text=True, env=environment)
+        command = [TAKT, "studio", self.folder / "other.json", "--open"]
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
         address = process.stdout.readline().strip()
         while not seen.exists():
             self.assertIsNone(process.poll())

@@ -420,6 +420,13 @@ void Network::keep_arrivals(StreamIndex stream) {
   }
 }
 
+void Network::keep_timely(StreamIndex stream, sim::Duration deadline) {
+  for (const NodeIndex listener : plan_.streams[stream.value].listeners) {
+    traffic_.book().keep_timely(stream, listener, deadline);
+    hosts_[listener.value]->keep_book();
+  }
+}
+
 void Network::start() {
   find_single_talker_ports();
   for (std::uint32_t n = 0; n < clocks_.size(); ++n)

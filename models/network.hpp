@@ -45,6 +45,8 @@ class Network final : private LinkLocalSender {
   void keep_account(StreamIndex stream, sim::TrueTime from);
   /// The same: which of its frames have reached each of its listeners, as they may come several times.
   void keep_arrivals(StreamIndex stream);
+  /// The same: which of its frames reach each of its listeners within so long.
+  void keep_timely(StreamIndex stream, sim::Duration deadline);
 
   /// Schedules the first events of talkers and starts the processes. Call once, at time zero.
   void start();

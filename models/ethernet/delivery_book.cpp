@@ -21,6 +21,10 @@ void DeliveryBook::keep_arrivals(StreamIndex stream, NodeIndex listener) {
   entry_of(stream).arrivals.push_back({listener});
 }
 
+void DeliveryBook::keep_timely(StreamIndex stream, NodeIndex listener, sim::Duration deadline) {
+  entry_of(stream).timely.push_back({listener, deadline});
+}
+
 void DeliveryBook::deliver(const Frame& frame, NodeIndex listener, sim::TrueTime now) {
   if (!concerns(frame.stream)) return;
   Entry& entry = entries_[frame.stream.value];
@@ -32,6 +36,11 @@ void DeliveryBook::deliver(const Frame& frame, NodeIndex listener, sim::TrueTime
   }
   for (Arrivals& arrivals : entry.arrivals)
     if (arrivals.listener == listener) arrive(arrivals, entry, frame);
+  for (Timely& timely : entry.timely) {
+    if (timely.listener != listener || now - frame.produced > timely.deadline) continue;
+    if (timely.came.size() <= frame.sequence) timely.came.resize(frame.sequence + 1);
+    timely.came[frame.sequence] = true;
+  }
 }
 
 /// What is folded, and when, depends on what has come to this listener alone, so that it is the same in a divided run.
@@ -71,6 +80,12 @@ void DeliveryBook::adopt(const DeliveryBook& other) {
       TAKT_CHECK(entries_[e].arrivals[l].ledger.is_empty(), "a listener is in one part");
       entries_[e].arrivals[l] = more;
     }
+    for (std::size_t t = 0; t < entries_[e].timely.size(); ++t) {
+      const Timely& more = other.entries_[e].timely[t];
+      if (more.came.empty()) continue;
+      TAKT_CHECK(entries_[e].timely[t].came.empty(), "a listener is in one part");
+      entries_[e].timely[t] = more;
+    }
   }
 }
 
@@ -81,6 +96,10 @@ std::span<const LaterAccount> DeliveryBook::accounts(StreamIndex stream) const {
 
 std::span<const DeliveryBook::Arrivals> DeliveryBook::arrivals(StreamIndex stream) const {
   return concerns(stream) ? std::span<const Arrivals>(entries_[stream.value].arrivals) : std::span<const Arrivals>();
+}
+
+std::span<const DeliveryBook::Timely> DeliveryBook::timely(StreamIndex stream) const {
+  return concerns(stream) ? std::span<const Timely>(entries_[stream.value].timely) : std::span<const Timely>();
 }
 
 }  // namespace takt::models

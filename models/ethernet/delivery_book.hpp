@@ -31,6 +31,8 @@ class DeliveryBook {
   void keep_account(StreamIndex stream, sim::TrueTime from);
   /// Frames of the stream may arrive at the listener several times: first copies are counted apart. Before the run.
   void keep_arrivals(StreamIndex stream, NodeIndex listener);
+  /// Which frames reach the listener within so long is kept, one bit a frame. Before the run.
+  void keep_timely(StreamIndex stream, NodeIndex listener, sim::Duration deadline);
 
   /// Whether anything is kept of the stream.
   bool concerns(StreamIndex stream) const { return stream.value < entries_.size() && entries_[stream.value].is_kept; }
@@ -50,12 +52,19 @@ class DeliveryBook {
   };
   /// By listener; empty if every frame comes at most once.
   std::span<const Arrivals> arrivals(StreamIndex stream) const;
+  struct Timely {
+    NodeIndex listener;
+    sim::Duration deadline;
+    std::vector<bool> came = {};  ///< by sequence number, as far as the last one that came so
+  };
+  std::span<const Timely> timely(StreamIndex stream) const;
 
  private:
   struct Entry {
     bool is_kept = false;
     std::vector<LaterAccount> accounts;
     std::vector<Arrivals> arrivals;
+    std::vector<Timely> timely;
   };
   Entry& entry_of(StreamIndex stream);
   static void arrive(Arrivals& arrivals, const Entry& entry, const Frame& frame);

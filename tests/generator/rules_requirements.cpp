@@ -82,6 +82,8 @@ bool is_time(const Scope& s) {
          s.text("take") != "count";
 }
 
+bool asks_for_several(const Scope& s) { return s.has("stream") || s.has("reaction"); }
+
 Made limit_of_figure(Maker& m, const Scope& s) {
   if (!s.has("figure")) return std::nullopt;
   if (is_time(s) && !s.has("unit")) return m.word("100us 5ms 1s");
@@ -95,6 +97,9 @@ std::span<const Rule> requirement_rules() {
       {.key = "scenario.require",
        .percent = 90,
        .make = [](Maker& m, const Scope& s) -> Made { return m.objects("requirement", m.draw.between(1, 4), s); }},
+      {.key = "requirement.name",
+       .percent = 30,
+       .make = [](Maker&, const Scope& s) -> Made { return text("REQ-" + std::to_string(s.number)); }},
       {.key = "requirement.reaction",
        .percent = 80,
        .make = [](Maker& m, const Scope&) -> Made {
@@ -161,6 +166,31 @@ std::span<const Rule> requirement_rules() {
          if (!s.has("stream")) return std::nullopt;
          const bool has_other = s.has("latency") || s.has("jitter") || s.has("dropped");
          return !has_other || m.draw.one_in(4) ? m.word("1 5 1000") : Made();
+       }},
+      {.key = "requirement.lost_in_a_row",
+       .percent = 15,
+       .make = [](Maker& m, const Scope& s) -> Made { return s.has("stream") ? m.word("0 1 3") : Made(); }},
+      {.key = "requirement.late_in_a_row",
+       .percent = 15,
+       .make = [](Maker& m, const Scope& s) -> Made { return asks_for_several(s) ? m.word("0 1 2") : Made(); }},
+      {.key = "requirement.met",
+       .percent = 15,
+       .make = [](Maker& m, const Scope& s) -> Made { return asks_for_several(s) ? m.word("0 1 3") : Made(); }},
+      {.key = "requirement.of",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made { return s.has("met") ? m.word("3 4 10") : Made(); }},
+      {.key = "requirement.deadline",
+       .percent = 100,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         if (!s.has("late_in_a_row") && !s.has("met")) return std::nullopt;
+         if (s.has("stream") && !s.has("late_in_a_row") && m.draw.one_in(2)) return std::nullopt;
+         return m.word("20us 200us 2ms 1s");
+       }},
+      {.key = "requirement.given",
+       .percent = 25,
+       .make = [](Maker& m, const Scope& s) -> Made {
+         const bool is_of_clocks = (s.has("sync") && !s.has("node")) || (s.has("clocks") && m.wants(Feature::gptp));
+         return is_of_clocks ? Made(Node::of_bool(true)) : std::nullopt;
        }},
       {.key = "requirement.node",
        .percent = 50,

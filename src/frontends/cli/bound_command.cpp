@@ -64,7 +64,7 @@ void add_bound_command(Command app, ExitStatus& status) {
   command
       .add_option("--clock-error", *clock_error,
                   "How far each synchronised clock is at most from the time that all nodes on a way share, so that two "
-                  "differ by twice that, where no requirement \"sync\" or \"clocks\" says it (1us)")
+                  "differ by twice that, where no requirement \"sync\" or \"clocks\" says it")
       .type_name("D");
   command.footer(
       "Examples:\n"

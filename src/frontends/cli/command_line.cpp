@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <sstream>
 
 #include "cli/companion.hpp"
@@ -25,8 +26,8 @@ Option Option::type_name(const std::string& name) const {
   return *this;
 }
 
-Option Option::default_in_help() const {
-  option_->capture_default_str();
+Option Option::default_text(const std::string& text) const {
+  option_->default_str(text);
   return *this;
 }
 
@@ -80,7 +81,7 @@ Command Command::add_subcommand(const std::string& name, const std::string& help
 }
 
 Option Command::add_option(const std::string& name, std::string& value, const std::string& help) const {
-  return Option(*app_->add_option(name, value, help));
+  return Option(*app_->add_option(name, value, help)->capture_default_str());
 }
 Option Command::add_option(const std::string& name, std::optional<std::string>& value, const std::string& help) const {
   return Option(*app_->add_option(name, value, help));
@@ -89,20 +90,20 @@ Option Command::add_option(const std::string& name, std::vector<std::string>& va
   return Option(*app_->add_option(name, value, help));
 }
 Option Command::add_option(const std::string& name, int& value, const std::string& help) const {
-  return Option(*app_->add_option(name, value, help));
+  return Option(*app_->add_option(name, value, help)->capture_default_str());
 }
 Option Command::add_option(const std::string& name, double& value, const std::string& help) const {
-  return Option(*app_->add_option(name, value, help));
+  return Option(*app_->add_option(name, value, help)->capture_default_str());
 }
 Option Command::add_option(const std::string& name, std::uint32_t& value, const std::string& help) const {
-  return Option(*app_->add_option(name, value, help));
+  return Option(*app_->add_option(name, value, help)->capture_default_str());
 }
 Option Command::add_option(const std::string& name, std::optional<std::uint32_t>& value,
                            const std::string& help) const {
   return Option(*app_->add_option(name, value, help));
 }
 Option Command::add_option(const std::string& name, std::uint64_t& value, const std::string& help) const {
-  return Option(*app_->add_option(name, value, help));
+  return Option(*app_->add_option(name, value, help)->capture_default_str());
 }
 Option Command::add_flag(const std::string& name, bool& value, const std::string& help) const {
   return Option(*app_->add_flag(name, value, help));
@@ -141,6 +142,21 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)";
 }
 
+/// Says the default of an option behind what it is for, where people look for it.
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    const std::string given = "=" + option->get_default_str();
+    const std::size_t at = given.size() > 1 ? text.find(given) : std::string::npos;
+    return at == std::string::npos ? text : text.erase(at, given.size());
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    const std::string& given = option->get_default_str();
+    return option->get_description() + (given.empty() ? "" : " (default: " + given + ")");
+  }
+};
+
 /// What man pages and completions are made of: a command, its options, and the commands below it.
 json::Node description_of(const CLI::App& app) {
   json::Node node = json::Node::object();
@@ -154,6 +170,7 @@ json::Node description_of(const CLI::App& app) {
              json::Node::of_string(option->get_positional() ? option->get_name(true) : option->get_name(false, true)));
     each.add("help", json::Node::of_string(option->get_description()));
     each.add("value", json::Node::of_string(option->get_items_expected_max() == 0 ? "" : option->get_type_name()));
+    each.add("default", json::Node::of_string(option->get_default_str()));
     each.add("positional", json::Node::of_bool(option->get_positional()));
     options.items.push_back(std::move(each));
   }
@@ -196,6 +213,7 @@ ExitStatus run_command_line(int argc, char** argv, const std::string& help, cons
                             const std::string& footer, const std::function<void(Command, ExitStatus&)>& add,
                             std::span<const Companion> elsewhere) {
   CLI::App app(help);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   app.footer(footer);

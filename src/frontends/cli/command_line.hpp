@@ -27,7 +27,8 @@ class Option {
   Option required() const;
   /// What stands for the value in the help.
   Option type_name(const std::string& name) const;
-  Option default_in_help() const;
+  /// What the help says of the default, where that is no value: "one for each processor".
+  Option default_text(const std::string& text) const;
   /// Of lists: each occurrence takes one value.
   Option one_value_each() const;
   Option delimiter(char between) const;
@@ -51,6 +52,7 @@ class Command {
   explicit Command(CLI::App& app) : app_(&app) {}
 
   Command add_subcommand(const std::string& name, const std::string& help) const;
+  /// The help shows what the value is before: the default, unless that is an empty text.
   Option add_option(const std::string& name, std::string& value, const std::string& help) const;
   Option add_option(const std::string& name, std::optional<std::string>& value, const std::string& help) const;
   Option add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) const;

@@ -92,13 +92,14 @@ void add_compare_command(Command app, ExitStatus& status) {
   command.add_option("--set-b", options->overrides_of_b, "Another value in B (repeatable)")
       .type_name("POINTER=VALUE")
       .one_value_each();
-  command.add_option("--pairs", options->pairs, "Pairs of runs, each with one seed for both (10)")
+  command.add_option("--pairs", options->pairs, "Pairs of runs, each with one seed for both")
       .between(1u, 100'000u)
       .type_name("N");
-  command.add_option("--seed", options->first_seed, "The first seed (1)").type_name("N");
+  command.add_option("--seed", options->first_seed, "The first seed").type_name("N");
   command.add_option("--jobs", options->jobs, "Processes; the result is the same for any number")
       .between(1u, 1024u)
-      .type_name("N");
+      .type_name("N")
+      .default_text("one for each processor");
   command.add_option("--format", options->format, "text or json").one_of({"text", "json"}).type_name("FORMAT");
   command.add_flag("--quiet", options->quiet, "No progress");
   command.footer(

@@ -55,8 +55,7 @@ void add_emulate_command(Command app, ExitStatus& status) {
   command
       .add_option("--patience", *patience,
                   "Seconds for nodes to come where the simulated run was, before the script goes on without them")
-      .between(0, 3600)
-      .default_in_help();
+      .between(0, 3600);
   command.footer(
       "Examples:\n"
       "  sudo takt emulate scenarios/three-slaves-star.json\n"

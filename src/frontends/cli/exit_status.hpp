@@ -13,4 +13,13 @@ enum class ExitStatus : int {
   interrupted = 130,   ///< Ctrl-C; what was reached is reported as partial
 };
 
+/// Of several scenarios the gravest: a mistake of takt, then one that was broken off, a failure, what is undecided.
+constexpr ExitStatus graver(ExitStatus a, ExitStatus b) {
+  constexpr ExitStatus order[] = {ExitStatus::internal_error, ExitStatus::bad_input, ExitStatus::interrupted,
+                                  ExitStatus::requirement_failed, ExitStatus::undecided};
+  for (const ExitStatus each : order)
+    if (a == each || b == each) return each;
+  return ExitStatus::pass;
+}
+
 }  // namespace takt::cli

@@ -246,7 +246,7 @@ class Asking {
     }
     const scenario::Resolved& looked_at = worst ? *worst : resolved;
     const bool is_required = !result.limit || *result.limit != no_limit;
-    explanation_.question = (is_required       ? result.text
+    explanation_.question = (is_required       ? results::titled(result)
                              : options_.stream ? "stream " + *options_.stream
                                                : "reaction " + options_.reaction.value_or("")) +
                             (options_.adversarial ? ": the worst run that was found" : ": the run as it is");

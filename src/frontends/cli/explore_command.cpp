@@ -176,24 +176,24 @@ void add_explore_command(Command app, ExitStatus& status) {
   command.add_option("scenario", options->scenario, "Take variant and slaves from its Programs").type_name("SCENARIO");
   command.add_option("--slaves", options->question.slaves, "Slaves of the group")
       .between(1U, static_cast<unsigned>(explore::most_slaves))
-      .type_name("N");
-  command.add_option("--variant", options->question.variant, "The handshake (default: robust, or the scenario's)")
-      .one_of({"paper", "robust"});
+      .type_name("N")
+      .default_text("1, or the scenario's");
+  command.add_option("--variant", options->question.variant, "The handshake")
+      .one_of({"paper", "robust"})
+      .default_text("robust, or the scenario's");
   command.add_option("--faults", options->question.faults, "Classes of faults, with commas between")
       .delimiter(',')
+      .default_text("none")
       .one_of(std::vector<std::string>(explore::fault_names.begin(), explore::fault_names.end()));
   command.add_option("--fault-budget", options->question.query.fault_budget, "Faults in a run, of all classes together")
-      .between(0U, explore::most_faults)
-      .default_in_help();
-  command
-      .add_option("--calls", options->question.calls,
-                  "Method calls and ends of the Program in a run (default: 4, 2, 1, 1 for 1 to 4 slaves)")
-      .between(0U, explore::most_commands);
-  command.add_option("--depth", options->question.query.depth, "Steps of a run").type_name("D");
+      .between(0U, explore::most_faults);
+  command.add_option("--calls", options->question.calls, "Method calls and ends of the Program in a run")
+      .between(0U, explore::most_commands)
+      .default_text("4, 2, 1, 1 for 1 to 4 slaves");
+  command.add_option("--depth", options->question.query.depth, "Steps of a run").type_name("D").default_text("any");
   command.add_option("--budget", options->question.query.states, "States to store at most")
       .between(std::uint64_t{1}, explore::most_states)
-      .type_name("STATES")
-      .default_in_help();
+      .type_name("STATES");
   command
       .add_option("--network", options->question.network,
                   "How words travel: registers (the last word, as cyclic publishing gives) or channels=N (N messages "
@@ -201,21 +201,20 @@ void add_explore_command(Command app, ExitStatus& status) {
       .check([](const std::string& text) {
         explore::Query unused;
         return verify::set_network(text, unused);
-      })
-      .default_in_help();
-  command
-      .add_option("--subscription", options->question.subscription, "Who hears whom (default: star, or the scenario's)")
-      .one_of({"star", "all-to-all"});
+      });
+  command.add_option("--subscription", options->question.subscription, "Who hears whom")
+      .one_of({"star", "all-to-all"})
+      .default_text("star, or the scenario's");
   command
       .add_option("--beginnings", options->question.beginnings,
                   "Where runs begin: all (wherever a group can rest) or switched-on")
-      .one_of({"all", "switched-on"})
-      .default_in_help();
+      .one_of({"all", "switched-on"});
   command.add_flag("--nested", options->question.nested,
                    "The last slave is the master of an inner group, too (robust, star, registers; loss, crash, "
                    "restart, timeout, forge)");
-  command.add_option("--inner-slaves", options->question.inner_slaves, "Slaves of the inner group (default 1)")
+  command.add_option("--inner-slaves", options->question.inner_slaves, "Slaves of the inner group")
       .between(1U, static_cast<unsigned>(explore::most_inner_slaves))
+      .default_text("1")
       .type_name("N");
   command.add_flag(
       "--joining", options->question.query.joining,
@@ -225,7 +224,8 @@ void add_explore_command(Command app, ExitStatus& status) {
                   "Nodes that may have the slaves' places, which are roles then (up to 2 roles; where --nested can be "
                   "explored, without forge)")
       .between(1U, static_cast<unsigned>(explore::most_explored_candidates))
-      .type_name("N");
+      .type_name("N")
+      .default_text("none: slaves have their places");
   command.add_flag(
       "--starts-again", options->question.starts_again,
       "With roles: the master starts the group again when a node that was lost in a run has been replaced");
@@ -233,8 +233,9 @@ void add_explore_command(Command app, ExitStatus& status) {
                    "With --faults replay: messages are signed, so none is taken twice, nor behind a newer one");
   command
       .add_option("--key-changes", options->question.key_changes,
-                  "With --signed: how often the key of each participant may change in a run (default 1)")
+                  "With --signed: how often the key of each participant may change in a run")
       .between(0U, static_cast<unsigned>(explore::most_key_changes))
+      .default_text("1")
       .type_name("N");
   command.add_flag("--no-finish", options->question.no_finish, "No Program ends by itself");
   command.add_flag("--no-symmetry", options->question.no_symmetry, "Tell equal slaves apart");

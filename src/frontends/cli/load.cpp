@@ -16,8 +16,14 @@ void warn_of_another_maker(const std::string& file) {
 
 void add_scenario_options(Command command, ScenarioOptions& options) {
   command.add_option("SCENARIO", options.file, "The scenario file (JSON, comments allowed)").required();
-  command.add_option("--seed", options.seed, "Another seed than the scenario's").type_name("N");
-  command.add_option("--duration", options.duration, "Another duration, such as 100ms or 1h").type_name("D");
+  add_scenario_changes(command, options);
+}
+
+void add_scenario_changes(Command command, ScenarioOptions& options) {
+  command.add_option("--seed", options.seed, "The seed").type_name("N").default_text("the scenario's");
+  command.add_option("--duration", options.duration, "The duration, such as 100ms or 1h")
+      .type_name("D")
+      .default_text("the scenario's");
   command
       .add_option("--set", options.overrides,
                   "Another value in the scenario: network.links.0.rate=100Mbps (repeatable)")
@@ -26,14 +32,19 @@ void add_scenario_options(Command command, ScenarioOptions& options) {
   command.add_option("--format", options.format, "text or json").one_of({"text", "json"}).type_name("FORMAT");
 }
 
-std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet) {
+std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, json::Diagnostics& diagnostics) {
   std::vector<std::string> overrides = options.overrides;
   if (options.seed) overrides.push_back("/seed=" + *options.seed);
   if (options.duration) overrides.push_back("/duration=" + *options.duration);
-  json::Diagnostics diagnostics;
   auto resolved = scenario::load_file(options.file, overrides, diagnostics);
   if (!resolved)
     if (json::Diagnostics other; belongs_elsewhere(options.file, InputKind::scenario, other)) diagnostics = other;
+  return resolved;
+}
+
+std::unique_ptr<scenario::Resolved> load(const ScenarioOptions& options, bool is_quiet) {
+  json::Diagnostics diagnostics;
+  auto resolved = load(options, diagnostics);
   if (!resolved && options.is_json()) {
     std::fputs(json::pretty(diagnostics.to_json()).c_str(), stdout);
     return nullptr;

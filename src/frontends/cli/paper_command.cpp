@@ -116,8 +116,7 @@ void add_programs(Command command, ExitStatus& status) {
   const auto options = std::make_shared<PaperOptions>();
   programs.add_flag("--short", options->programs.is_short,
                     "Three minutes of simulated time for each row instead of an hour");
-  programs.add_option("--scenarios", options->programs.scenarios, "Where its scenarios are (scenarios/papers/programs)")
-      .type_name("DIR");
+  programs.add_option("--scenarios", options->programs.scenarios, "Where its scenarios are").type_name("DIR");
   add_common_options(programs, *options);
   programs.footer(
       "Examples:\n"
@@ -136,10 +135,7 @@ void add_coexistence(Command command, ExitStatus& status) {
                        "Fewer repetitions, and what real-time Linux and TSN change at 10 and 1 ms only");
   coexistence.add_flag("--real", options->is_real,
                        "Measure criteria 1 and 2 on this machine too: six nodes, and the gateway, as processes");
-  coexistence
-      .add_option("--scenarios", options->coexistence.scenarios,
-                  "Where its scenarios are (scenarios/papers/coexistence)")
-      .type_name("DIR");
+  coexistence.add_option("--scenarios", options->coexistence.scenarios, "Where its scenarios are").type_name("DIR");
   add_common_options(coexistence, *options);
   coexistence.footer(
       "Examples:\n"
@@ -155,14 +151,12 @@ void add_validation(Command command, ExitStatus& status) {
       command.add_subcommand("validation", "Every published or measured figure that takt was compared with");
   const auto options = std::make_shared<PaperOptions>();
   validation.add_flag("--short", options->validation.is_short, "Of large tables some rows only");
-  validation
-      .add_option("--tables", options->validation.tables, "Where the tables of published figures are (validation)")
+  validation.add_option("--tables", options->validation.tables, "Where the tables of published figures are")
       .type_name("DIR");
-  validation
-      .add_option("--jobs", options->validation.jobs,
-                  "Threads; the figures are the same for any number (one for each core)")
+  validation.add_option("--jobs", options->validation.jobs, "Threads; the figures are the same for any number")
       .between(1u, 256u)
-      .type_name("N");
+      .type_name("N")
+      .default_text("one for each processor");
   add_output_options(validation, *options,
                      "Write report, pictures (SVG) and the page docs/validation.md into this folder");
   validation.footer(

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "cli/batch_run.hpp"
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/load.hpp"
 #include "cli/places.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
@@ -27,12 +27,9 @@ namespace takt::cli {
 namespace {
 
 struct RunOptions {
-  ScenarioOptions scenario;
+  BatchOptions batch;
   output::RecordingOptions recording;
-  std::string out;
-  std::string report;
   std::uint32_t threads = 1;
-  bool quiet = false;
   bool all = false;
 };
 
@@ -76,11 +73,6 @@ ExitStatus status_of(const results::RunResult& result) {
   return result.verdict == results::Verdict::undecided ? ExitStatus::undecided : ExitStatus::pass;
 }
 
-ExitStatus cannot_write(const std::string& problem) {
-  std::fprintf(stderr, "takt: cannot write results: %s\n", problem.c_str());
-  return ExitStatus::internal_error;
-}
-
 /// The page, and the run once more for what it shows. Empty, or what went wrong.
 std::string write_page(const std::string& path, const scenario::Resolved& resolved, const results::RunResult& result) {
   const InterruptGuard interrupt;
@@ -91,68 +83,79 @@ std::string write_page(const std::string& path, const scenario::Resolved& resolv
 
 /// The files of the folder whose names are known before the run: where one of them is a folder, the run would be for
 /// nothing.
-bool can_write_files(const RunOptions& options, const output::Recording& recording) {
-  if (options.out.empty()) return true;
+bool can_write_files(const std::string& out, const output::Recording& recording, bool is_json) {
+  if (out.empty()) return true;
   std::vector<std::string> names(output::result_files.begin(), output::result_files.end());
   for (std::string& name : recording.files()) names.push_back(std::move(name));
-  for (std::string& name : names) name = (std::filesystem::path(options.out) / name).string();
+  for (std::string& name : names) name = (std::filesystem::path(out) / name).string();
   std::vector<Place> places;
   for (const std::string& name : names) places.push_back({"--out", name, Place::Kind::file});
-  return can_write(places, options.scenario.is_json());
+  return can_write(places, is_json);
 }
 
-ExitStatus run(const RunOptions& options) {
-  if (!can_write({{"--out", options.out, Place::Kind::folder}, {"--report", options.report, Place::Kind::file}},
-                 options.scenario.is_json()))
-    return ExitStatus::bad_input;
-  scenario::put_heap_on_huge_pages();
-  const auto resolved = load(options.scenario, options.quiet);
-  if (!resolved) return ExitStatus::bad_input;
+ScenarioDone run(const RunOptions& options, const LoadedScenario& loaded) {
+  const bool is_json = options.batch.scenario.is_json();
+  const std::string& page_file = options.batch.report;
   json::Diagnostics diagnostics;
-  if (options.recording.is_wanted() && options.out.empty())
-    diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder",
-                      {"--pcap, --timeline, --waves, --clocks or --frames", "--out DIR"});
-  const scenario::Division division = division_for(*resolved, options.threads);
+  const scenario::Division division = division_for(*loaded.resolved, options.threads);
   std::optional<scenario::Run> whole;
   std::optional<scenario::DividedRun> divided;
-  division.is_divided() ? void(divided.emplace(*resolved, division)) : void(whole.emplace(*resolved));
+  division.is_divided() ? void(divided.emplace(*loaded.resolved, division)) : void(whole.emplace(*loaded.resolved));
   std::optional<output::Recording> recording;
-  whole ? void(recording.emplace(options.recording, options.out, *whole, diagnostics))
-        : void(recording.emplace(options.recording, options.out, *divided, diagnostics));
+  whole ? void(recording.emplace(options.recording, loaded.out, *whole, diagnostics))
+        : void(recording.emplace(options.recording, loaded.out, *divided, diagnostics));
   if (diagnostics.has_errors()) {
     tell(diagnostics);
-    return ExitStatus::bad_input;
+    return {ExitStatus::bad_input};
   }
-  if (!can_write_files(options, *recording)) return ExitStatus::bad_input;
+  if (!can_write_files(loaded.out, *recording, is_json)) return {ExitStatus::bad_input};
   std::optional<output::WrittenFiles> folder;
-  if (!options.out.empty()) {
-    folder.emplace(options.out, "run", options.scenario.file);
-    if (const std::string problem = folder->begin(); !problem.empty()) return cannot_write(problem);
+  if (!loaded.out.empty()) {
+    folder.emplace(loaded.out, "run", loaded.file);
+    if (const std::string problem = folder->begin(); !problem.empty()) return {cannot_write(problem)};
   }
-  if (const std::string problem = recording->open(); !problem.empty()) return cannot_write(problem);
-  const bool show_progress = !options.quiet && !options.scenario.is_json();
+  if (const std::string problem = recording->open(); !problem.empty()) return {cannot_write(problem)};
+  const bool show_progress = !options.batch.quiet && !is_json;
   const bool is_recorded = options.recording.is_wanted();
   const bool complete = whole ? simulate(*whole, *recording, is_recorded, show_progress)
                               : simulate(*divided, *recording, is_recorded, show_progress);
-  const results::RunResult result = evaluation::evaluate(whole ? *whole : divided->gathered(), !complete);
-  if (const std::string problem = recording->close(); !problem.empty()) return cannot_write(problem);
-  const bool report_is_inside = folder && !options.report.empty() && folder->add_if_inside(options.report);
+  results::RunResult result = evaluation::evaluate(whole ? *whole : divided->gathered(), !complete);
+  evaluation::keep_requirements(result, loaded.asked);
+  if (const std::string problem = recording->close(); !problem.empty()) return {cannot_write(problem)};
+  const bool report_is_inside = folder && !page_file.empty() && folder->add_if_inside(page_file);
   if (folder) {
+    if (!options.batch.junit.empty()) folder->add_if_inside(options.batch.junit);
     for (std::string& name : recording->files()) folder->add(std::move(name));
-    if (const std::string problem = output::write_result_folder(*folder, result, json::encode(resolved->scenario));
+    if (const std::string problem =
+            output::write_result_folder(*folder, result, json::encode(loaded.resolved->scenario));
         !problem.empty())
-      return cannot_write(problem);
+      return {cannot_write(problem)};
   }
-  if (!options.report.empty())
-    if (const std::string problem = write_page(options.report, *resolved, result); !problem.empty())
-      return cannot_write(problem);
-  const std::string page = options.scenario.is_json() ? results::run_json(result)
-                           : options.quiet            ? output::run_line(result)
-                                                      : output::run_report(result, {page_width(), options.all});
-  print(page);
-  if (!options.quiet && !options.scenario.is_json())
-    print_files(folder ? folder->summary() : "", report_is_inside ? "" : options.report);
-  return status_of(result);
+  if (!page_file.empty())
+    if (const std::string problem = write_page(page_file, *loaded.resolved, result); !problem.empty())
+      return {cannot_write(problem)};
+  ScenarioDone done{status_of(result)};
+  done.page = is_json               ? results::run_json(result)
+              : options.batch.quiet ? output::run_line(result)
+                                    : output::run_report(result, {page_width(), options.all});
+  done.told = folder ? folder->summary() : "";
+  done.report = report_is_inside ? "" : page_file;
+  done.suite = report::suite_of(loaded.file, result);
+  return done;
+}
+
+/// What is recorded is of one scenario, and lies in a folder.
+bool can_record(const RunOptions& options) {
+  if (!options.recording.is_wanted()) return true;
+  constexpr const char* recordings = "--pcap, --timeline, --waves, --clocks or --frames";
+  json::Diagnostics diagnostics;
+  if (options.batch.out.empty())
+    diagnostics.error({"command line", 0, 0, ""}, "a recording without a folder", {recordings, "--out DIR"});
+  if (!options.batch.is_single())
+    diagnostics.error({"command line", 0, 0, ""}, "a recording of several scenarios",
+                      {recordings, "a call for each scenario"});
+  tell(diagnostics);
+  return !diagnostics.has_errors();
 }
 
 }  // namespace
@@ -160,11 +163,14 @@ ExitStatus run(const RunOptions& options) {
 void add_run_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("run", "Simulate a scenario and judge it");
   const auto options = std::make_shared<RunOptions>();
-  add_scenario_options(command, options->scenario);
-  command.add_option("--out", options->out, "Write result.json, tables and the resolved scenario into this folder")
+  add_batch_options(command, options->batch);
+  command
+      .add_option("--out", options->batch.out,
+                  "Write result.json, tables and the resolved scenario into this folder; of several scenarios into "
+                  "DIR/NAME of each file")
       .type_name("DIR");
   command
-      .add_option("--report", options->report,
+      .add_option("--report", options->batch.report,
                   "Write a page with pictures into this file: verdicts, network, gates, latencies, reactions")
       .type_name("FILE.html");
   command
@@ -183,15 +189,16 @@ void add_run_command(Command app, ExitStatus& status) {
   command.add_flag("--frames", options->recording.frames,
                    "Write what became of each frame, and when, as DIR/frames.csv, and where its time went at each hop "
                    "as DIR/hops.csv");
-  command.add_option("--from", options->recording.from, "Record from then on").type_name("D");
-  command.add_option("--to", options->recording.to, "Record until then").type_name("D");
+  command.add_option("--from", options->recording.from, "Record from then on").type_name("D").default_text("the start");
+  command.add_option("--to", options->recording.to, "Record until then").type_name("D").default_text("the end");
   command.add_option("--stream", options->recording.streams, "Record frames of this stream only (repeatable)")
       .type_name("NAME")
-      .one_value_each();
+      .one_value_each()
+      .default_text("all");
   add_threads_option(command, options->threads);
   command.add_flag("--all", options->all,
                    "Print all changes of state, reactions, streams and so on, however many there are");
-  command.add_flag("--quiet", options->quiet, "Print one line");
+  command.add_flag("--quiet", options->batch.quiet, "Print one line");
   command.footer(
       "Examples:\n"
       "  takt run scenarios/robot-arm.json\n"
@@ -201,10 +208,18 @@ void add_run_command(Command app, ExitStatus& status) {
       "  takt run scenarios/robot-arm.json --report out/robot-arm.html\n"
       "  takt run scenarios/ring-1000.json --threads 2\n"
       "  takt run scenarios/robot-arm.json --out out/look --frames --stream camera --from 1s --to 1100ms\n"
+      "  takt run scenarios/robot-arm.json scenarios/first-cell.json --quiet --junit out/run.xml\n"
+      "  takt run scenarios/robot-arm.json --only 'reaction halt*'\n"
       "  takt run scenarios/robot-arm.json --format json | jq .programs.trajectory.reactions\n"
       "Exit status: 0 pass, 1 a requirement failed, 2 bad input, 3 internal error, 4 undecided (clocks that follow "
-      "several grandmasters), 130 interrupted.");
-  command.callback([options, &status] { status = run(*options); });
+      "several "
+      "grandmasters), 130 interrupted; of several scenarios the gravest.");
+  command.callback([options, &status] {
+    scenario::put_heap_on_huge_pages();
+    status = ExitStatus::bad_input;
+    if (!can_record(*options)) return;
+    status = run_batch(options->batch, "takt run", [&](const LoadedScenario& each) { return run(*options, each); });
+  });
 }
 
 }  // namespace takt::cli

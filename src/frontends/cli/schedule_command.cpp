@@ -17,9 +17,6 @@
 #include "cli/schedule_change.hpp"
 #include "cli/schedule_scenario_change.hpp"
 #include "cli/terminal.hpp"
-#include "schedule_instances/instances.hpp"
-#include "schedule_instances/report.hpp"
-#include "schedule_instances/write.hpp"
 #include "json/document.hpp"
 #include "json/fields.hpp"
 #include "json/quantity.hpp"
@@ -27,6 +24,9 @@
 #include "schedule/decide.hpp"
 #include "schedule/gate_lists.hpp"
 #include "schedule_check/instance_check.hpp"
+#include "schedule_instances/instances.hpp"
+#include "schedule_instances/report.hpp"
+#include "schedule_instances/write.hpp"
 #include "synthesis/report.hpp"
 
 namespace takt::cli {
@@ -190,17 +190,15 @@ ExitStatus schedule_scenario(const ScheduleOptions& options, const Limits& limit
   if (options.format == "text") print(synthesis::text_of(wanted.name, *answer));
   if (options.format == "neutral" && answer->certificate)
     std::fputs(
-        (json::compact(schedule_instances::write_certificate(*answer->instance, *answer->certificate)) + "\n")
-            .c_str(),
+        (json::compact(schedule_instances::write_certificate(*answer->instance, *answer->certificate)) + "\n").c_str(),
         stdout);
   else if (options.format == "neutral" && answer->instance)
     std::fputs((json::compact(schedule_instances::write_problem(*answer->instance)) + "\n").c_str(), stdout);
   if (options.out && answer->resolved && !write_file(*options.out, json::encode(answer->resolved->scenario)))
     return ExitStatus::internal_error;
   if (options.certificate && answer->certificate &&
-      !write_file(
-          *options.certificate,
-          json::compact(schedule_instances::write_certificate(*answer->instance, *answer->certificate)) + "\n"))
+      !write_file(*options.certificate,
+                  json::compact(schedule_instances::write_certificate(*answer->instance, *answer->certificate)) + "\n"))
     return ExitStatus::internal_error;
   if (answer->verdict == Decision::Verdict::infeasible) return ExitStatus::requirement_failed;
   return answer->verdict == Decision::Verdict::scheduled ? ExitStatus::pass : ExitStatus::undecided;
@@ -335,29 +333,31 @@ void add_schedule_command(Command app, ExitStatus& status) {
   command
       .add_option("--routes", options->routes,
                   "given: streams without a route are refused, of a scenario only \"route\": \"auto\" is searched for; "
-                  "shortest: one way each; search: other ways, too (search)")
+                  "shortest: one way each; search: other ways, too")
       .one_of({"given", "shortest", "search"})
       .type_name("ROUTES");
   command
       .add_option("--objective", options->objective,
                   "feasible: the first schedule; latency, entries: of an instance the best of twelve attempts; slack: "
-                  "the greatest clock error (feasible)")
+                  "the greatest clock error")
       .one_of({"feasible", "latency", "entries", "slack"})
       .type_name("WHAT");
-  command
-      .add_option("--limit", options->limit,
-                  "How long to search each instance, by the clock on the wall (10s, with --cpu-limit no end)")
-      .type_name("D");
+  command.add_option("--limit", options->limit, "How long to search each instance, by the clock on the wall")
+      .type_name("D")
+      .default_text("10s; with --cpu-limit no end");
   command
       .add_option("--cpu-limit", options->cpu_limit,
                   "How much time of the processors each search may take, of all threads together")
-      .type_name("D");
-  command.add_option("--seed", options->seed, "Another seed of the search (1)").type_name("N");
-  command.add_option("--jobs", options->jobs, "Threads; the result is the same for any number (all processors)")
-      .type_name("N");
+      .type_name("D")
+      .default_text("no end");
+  command.add_option("--seed", options->seed, "The seed of the search").type_name("N");
+  command.add_option("--jobs", options->jobs, "Threads; the result is the same for any number")
+      .type_name("N")
+      .default_text("one for each processor");
   command.add_flag("--gates", options->gates, "Gate control lists, too");
   command.add_option("--entries", options->entries, "Entries that a list may have, where the port takes more")
-      .type_name("N");
+      .type_name("N")
+      .default_text("as many as the port takes");
   command
       .add_option("--out", options->out,
                   "Where the schedule goes: of a scenario a scenario, of an instance neutral JSON; DIR/ for one file "
@@ -392,14 +392,14 @@ void add_schedule_command(Command app, ExitStatus& status) {
       .add_option("--transition", options->scenario_change.transition,
                   "Where the way from one schedule of a scenario to the next goes, as a scenario that can be run")
       .type_name("FILE");
-  command
-      .add_option("--at", options->scenario_change.at,
-                  "Of a scenario: when the change begins (as soon as all streams have sent for two periods)")
-      .type_name("D");
+  command.add_option("--at", options->scenario_change.at, "Of a scenario: when the change begins")
+      .type_name("D")
+      .default_text("as soon as all streams have sent for two periods");
   command
       .add_option("--lead", options->scenario_change.lead,
-                  "Of a scenario: how long before it holds a list is written, at least (10ms)")
-      .type_name("D");
+                  "Of a scenario: how long before it holds a list is written, at least")
+      .type_name("D")
+      .default_text("10ms");
   command.add_option("--format", options->format, "text, json or neutral (the schedule or the certificate)")
       .one_of({"text", "json", "neutral"})
       .type_name("FORMAT");

@@ -110,8 +110,9 @@ void add_studio_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("studio", companion_help("studio"));
   const auto options = std::make_shared<StudioOptions>();
   command.add_option("scenario", options->file, "The scenario; made when it is saved first, if it is not there");
-  command.add_option("--port", options->port, "Port of 127.0.0.1; any free one if it is not given")
+  command.add_option("--port", options->port, "Port of 127.0.0.1")
       .type_name("PORT")
+      .default_text("any that is free")
       .between(0u, 65535u);
   command.add_flag("--open", options->opens, "Also open it with xdg-open, which does not see the token");
   command.footer(

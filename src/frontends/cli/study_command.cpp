@@ -231,7 +231,7 @@ void add_report(Command study, ExitStatus& status) {
   const auto store = std::make_shared<std::string>();
   const auto out = std::make_shared<std::string>("study.html");
   command.add_option("STORE", *store, "The store (study.sqlite)").required();
-  command.add_option("--out", *out, "The HTML file that is written (study.html)").type_name("FILE");
+  command.add_option("--out", *out, "The HTML file that is written").type_name("FILE");
   command.footer("Example:\n  takt study report slaves.sqlite --out slaves.html");
   command.callback([store, out, &status] { status = report(*store, *out); });
 }
@@ -277,7 +277,7 @@ void add_shrink(Command study, ExitStatus& status) {
   command.add_option("FILE", options->file, "The study file").required();
   command.add_option("POINT", options->point, "The number of a point that fails; takt study report names some")
       .required();
-  command.add_option("--out", options->out, "The scenario that is written (shrunk.json)").type_name("FILE");
+  command.add_option("--out", options->out, "The scenario that is written").type_name("FILE");
   command.footer("Example:\n  takt study shrink FILE 17 --out worst.json && takt run worst.json");
   command.callback([options, &status] { status = shrink(*options); });
 }
@@ -288,13 +288,12 @@ void add_study_command(Command app, ExitStatus& status) {
   const Command command = app.add_subcommand("study", companion_help("study"));
   const auto options = std::make_shared<StudyOptions>();
   command.add_option("FILE", options->file, "The study file (JSON, comments allowed)");
-  command
-      .add_option("--jobs", options->jobs,
-                  "Processes; the results are the same for any number (as many as the machine has cores)")
+  command.add_option("--jobs", options->jobs, "Processes; the results are the same for any number")
       .between(1u, 1024u)
-      .type_name("N");
+      .type_name("N")
+      .default_text("one for each processor");
   add_threads_option(command, options->threads);
-  command.add_option("--out", options->out, "The store of the results, SQLite (study.sqlite)").type_name("STORE");
+  command.add_option("--out", options->out, "The store of the results, SQLite").type_name("STORE");
   command.add_flag("--resume", options->resume, "Go on with a store: run only what is missing");
   command.add_option("--shard", options->shard, "Only the I-th of N parts of the points, for several machines")
       .type_name("I/N");

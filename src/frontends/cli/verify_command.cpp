@@ -7,9 +7,9 @@
 #include <memory>
 #include <optional>
 
+#include "cli/batch_run.hpp"
 #include "cli/commands.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/load.hpp"
 #include "cli/places.hpp"
 #include "cli/status_line.hpp"
 #include "cli/terminal.hpp"
@@ -22,12 +22,9 @@ namespace takt::cli {
 namespace {
 
 struct VerifyOptions {
-  ScenarioOptions scenario;
+  BatchOptions batch;
   verify::SearchOptions search;
   double budget = static_cast<double>(verify::default_events) / 1e6;  // millions of events
-  std::string out;
-  std::string report;
-  bool quiet = false;
 };
 
 constexpr const char* run_of_contradiction = "contradiction-run.json";
@@ -79,6 +76,7 @@ ExitStatus status_of(const verify::Verification& verification) {
   switch (verification.verdict()) {
     case verify::Conclusion::pass:
     case verify::Conclusion::reported:
+    case verify::Conclusion::given:
       return ExitStatus::pass;
     case verify::Conclusion::refuted:
       return ExitStatus::requirement_failed;
@@ -90,16 +88,12 @@ ExitStatus status_of(const verify::Verification& verification) {
   return verification.partial ? ExitStatus::interrupted : ExitStatus::undecided;
 }
 
-ExitStatus run(VerifyOptions& options) {
-  if (!can_write({{"--out", options.out, Place::Kind::folder}, {"--report", options.report, Place::Kind::file}},
-                 options.scenario.is_json()))
-    return ExitStatus::bad_input;
-  const auto resolved = load(options.scenario, options.quiet);
-  if (!resolved) return ExitStatus::bad_input;
+verify::Verification verified(const VerifyOptions& options, const LoadedScenario& loaded) {
   const InterruptGuard interrupt;
-  StatusLine line(!options.quiet && !options.scenario.is_json());
+  StatusLine line(!options.batch.quiet && !options.batch.scenario.is_json());
   verify::Options what;
   what.search = options.search;
+  what.search.asked = loaded.asked;
   what.search.events = static_cast<std::uint64_t>(options.budget * 1e6);
   what.search.interrupted = [&] { return interrupt.requested(); };
   what.search.progress = [&](std::uint64_t events, std::uint64_t of) {
@@ -109,44 +103,51 @@ ExitStatus run(VerifyOptions& options) {
   };
   what.helps = true;
   what.proof.interrupted = what.search.interrupted;
-  const verify::Verification verification = verify::verify(*resolved, what);
+  verify::Verification verification = verify::verify(*loaded.resolved, what);
   line.clear();
+  return verification;
+}
+
+ScenarioDone conclude(const VerifyOptions& options, const LoadedScenario& loaded) {
+  const BatchOptions& batch = options.batch;
+  const verify::Verification verification = verified(options, loaded);
   std::vector<std::string> files(verification.lines.size());
   std::optional<output::WrittenFiles> folder;
-  if (!options.out.empty()) {
-    folder.emplace(options.out, "verify", options.scenario.file);
-    if (const std::string problem = write_worst(*folder, verification, files); !problem.empty()) {
-      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
-      return ExitStatus::internal_error;
-    }
+  if (!loaded.out.empty()) {
+    folder.emplace(loaded.out, "verify", loaded.file);
+    if (const std::string problem = write_worst(*folder, verification, files); !problem.empty())
+      return {cannot_write(problem)};
   }
-  if (!options.report.empty())
+  if (!batch.report.empty())
     if (const std::string problem =
-            output::write_file(options.report, report::verify_page(*resolved, verification, files));
-        !problem.empty()) {
-      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
-      return ExitStatus::internal_error;
-    }
+            output::write_file(batch.report, report::verify_page(*loaded.resolved, verification, files));
+        !problem.empty())
+      return {cannot_write(problem)};
   verify::Witnesses witnesses;
   if (verification.contradiction)
-    if (const std::string problem = write_witnesses(options.out, *resolved, *verification.contradiction, witnesses);
+    if (const std::string problem =
+            write_witnesses(loaded.out, *loaded.resolved, *verification.contradiction, witnesses);
         !problem.empty())
-      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
-  const bool report_is_inside = folder && !options.report.empty() && folder->add_if_inside(options.report);
+      cannot_write(problem);
+  const bool report_is_inside = folder && !batch.report.empty() && folder->add_if_inside(batch.report);
   if (folder) {
+    if (!batch.junit.empty()) folder->add_if_inside(batch.junit);
     if (verification.contradiction)
       for (const char* const name : {run_of_contradiction, bound_of_contradiction}) folder->add(name);
-    if (const std::string problem = folder->end(resolved->scenario.name); !problem.empty())
-      std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+    if (const std::string problem = folder->end(loaded.resolved->scenario.name); !problem.empty())
+      cannot_write(problem);
   }
-  const std::string& name = resolved->scenario.name;
-  const std::string page = options.scenario.is_json() ? verify::json_report(name, verification, files, witnesses)
-                           : options.quiet            ? name + ": " + verify::name_of(verification.verdict()) + "\n"
-                                                      : verify::text_report(name, verification, files, witnesses);
-  print(page);
-  if (!options.quiet && !options.scenario.is_json())
-    print_files(folder ? folder->summary() : "", report_is_inside ? "" : options.report);
-  return status_of(verification);
+  const std::string& name = loaded.resolved->scenario.name;
+  ScenarioDone done{status_of(verification)};
+  done.page = batch.scenario.is_json() ? verify::json_report(name, verification, files, witnesses)
+              : batch.quiet            ? name + ": " + verification.verdict_text() + "\n"
+                                       : verify::text_report(name, verification, files, witnesses);
+  done.told = folder ? folder->summary() : "";
+  done.report = report_is_inside ? "" : batch.report;
+  done.suite = verification.partial && verification.lines.empty()
+                   ? report::suite_of_interrupted(loaded.file, *loaded.resolved, loaded.asked)
+                   : report::suite_of(loaded.file, name, verification, files);
+  return done;
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ void add_verify_command(Command app, ExitStatus& status) {
   const Command command =
       app.add_subcommand("verify", "Prove or refute each requirement: simulated, adversarial, bounded");
   const auto options = std::make_shared<VerifyOptions>();
-  add_scenario_options(command, options->scenario);
+  add_batch_options(command, options->batch);
   command
       .add_option("--seeds", options->search.seeds,
                   "Runs of the scenario as it is, with its seed and those after it; two where chance has no say")
@@ -171,23 +172,30 @@ void add_verify_command(Command app, ExitStatus& status) {
       .between(0.0, 1e6)
       .type_name("M");
   command
-      .add_option("--out", options->out,
-                  "Write into this folder, for each requirement, the scenario that replays its worst run")
+      .add_option("--out", options->batch.out,
+                  "Write into this folder, for each requirement, the scenario that replays its worst run; of several "
+                  "scenarios into DIR/NAME of each file")
       .type_name("DIR");
   command
-      .add_option("--report", options->report,
+      .add_option("--report", options->batch.report,
                   "Write a page with pictures into this file: simulated, worst found and bound of each requirement, "
                   "and what they rest on")
       .type_name("FILE.html");
-  command.add_flag("--quiet", options->quiet, "Print one line");
+  command.add_flag("--quiet", options->batch.quiet, "Print one line");
   command.footer(
       "Examples:\n"
       "  takt verify scenarios/robot-arm.json --out out/worst\n"
       "  takt verify scenarios/robot-arm.json --report out/proof.html\n"
+      "  takt verify scenarios/robot-arm.json scenarios/first-cell.json --junit out/verify.xml\n"
+      "  takt verify scenarios/robot-arm.json --only 'reaction halt*'\n"
       "  takt verify scenarios/robot-arm.json --seeds 20 --jobs 2 --format json | jq '.requirements[].verdict'\n"
       "Exit status: 0 all proved, 1 one refuted, 2 bad input, 3 a contradiction (a mistake of takt), 4 one undecided, "
-      "130 interrupted.");
-  command.callback([options, &status] { status = run(*options); });
+      "130 "
+      "interrupted; of several scenarios the gravest.");
+  command.callback([options, &status] {
+    status =
+        run_batch(options->batch, "takt verify", [&](const LoadedScenario& each) { return conclude(*options, each); });
+  });
 }
 
 }  // namespace takt::cli

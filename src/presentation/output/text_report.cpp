@@ -53,7 +53,7 @@ std::string requirements_part(const RunResult& result, const Layout& layout) {
             fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.measured->ps()) / static_cast<double>(limit));
       if (!r.remark.empty()) figures += ", ";
     }
-    table.add({mark(r.verdict), r.text}, figures + r.remark);
+    table.add({mark(r.verdict), results::titled(r)}, figures + r.remark);
   }
   return heading("Requirements") + table.text(layout);
 }

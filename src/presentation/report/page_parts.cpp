@@ -10,7 +10,7 @@ namespace takt::report {
 
 std::string_view look_of(std::string_view verdict) {
   if (verdict == "pass") return "pass";
-  return verdict == "undecided" || verdict == "reported" ? "undecided" : "fail";
+  return verdict == "undecided" || verdict == "reported" || verdict == "given" ? "undecided" : "fail";
 }
 
 std::string verdict_line(std::string_view verdict, std::string_view sentence) {
@@ -28,7 +28,7 @@ std::string figures_of(const results::RequirementResult& requirement) {
 
 chart::LimitBar limit_bar(const results::RequirementResult& requirement, std::string_view verdict) {
   chart::LimitBar bar;
-  bar.name = requirement.text;
+  bar.name = results::titled(requirement);
   bar.verdict = verdict;
   bar.look = look_of(verdict);
   bar.title = figures_of(requirement);

@@ -61,7 +61,7 @@ std::string requirements(const RunResult& result) {
     if (bar.simulated) bars.bars.push_back(bar);
     const std::string figures = figures_of(each);
     table.row({{verdict, false, look_of(verdict)},
-               {each.text},
+               {results::titled(each)},
                {figures},
                {figures == each.remark ? std::string() : each.remark, false, "note"}});
   }

@@ -29,9 +29,8 @@ std::string sentence(const scenario::Resolved& resolved, const verify::Verificat
   };
   const auto reported = count(verify::Conclusion::reported);
   return fmt::format("{}: {}. Of {} requirements {} are proved, {} refuted and {} undecided{}, after {} runs{}", name,
-                     verify::name_of(verification.verdict()), verification.lines.size(),
-                     count(verify::Conclusion::pass), count(verify::Conclusion::refuted),
-                     count(verify::Conclusion::undecided),
+                     verification.verdict_text(), verification.lines.size(), count(verify::Conclusion::pass),
+                     count(verify::Conclusion::refuted), count(verify::Conclusion::undecided),
                      reported > 0 ? fmt::format(", {} reported only", reported) : "", verification.runs,
                      verification.partial ? "; interrupted" : "");
 }
@@ -57,13 +56,15 @@ std::string requirements(const verify::Verification& verification, const std::ve
                             time_text(line.adversarial), time_text(line.bound), time_text(line.requirement.limit));
     if (bar.simulated || bar.worst || bar.bound) bars.bars.push_back(bar);
     std::string why = line.verdict == verify::Conclusion::pass ? line.remark : line.reason;
+    if (!line.provided.empty()) why = "if " + line.provided + (why.empty() ? "" : "; ") + why;
+    if (line.verdict == verify::Conclusion::given) why = "a data sheet promises it";
     if (line.verdict == verify::Conclusion::reported)
       why = fmt::format("up to {} violation{} in a run", *line.violations, *line.violations == 1 ? "" : "s");
     if (line.runs > 0)
       why += fmt::format("{}{} runs: {}", why.empty() ? "" : "; ", line.runs, verify::words_of(line.ended));
     if (!files[i].empty()) why += (why.empty() ? "" : "; ") + ("takt run " + files[i]);
     table.row({{verdict, false, look_of(verdict)},
-               {line.requirement.text},
+               {results::titled(line.requirement)},
                {time_text(line.simulated), true},
                {time_text(line.adversarial), true},
                {time_text(line.bound), true},
@@ -90,7 +91,7 @@ std::string slack(const verify::Verification& verification) {
                  {readable(part.run), true},
                  {readable(part.bound), true},
                  {readable(part.given_away()), true}});
-    text += chart::section(line.requirement.text, "Where the bound and the worst run part.") + table.take();
+    text += chart::section(results::titled(line.requirement), "Where the bound and the worst run part.") + table.take();
   }
   return text.empty() ? text : "<details><summary>What bounds give away</summary>" + text + "</details>\n";
 }

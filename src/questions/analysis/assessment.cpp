@@ -41,12 +41,24 @@ class Assessor {
     const std::string text = "clocks of the nodes on a way within " + to_text(premise.difference()) + " of each other";
     ledger_.state(Assumption::clock_difference,
                   premise.after > Duration() ? text + " from " + to_text(premise.after) + " on" : text, premise.after);
-    if (!premise.requirement)
+    if (premise.requirement && r_.requirements[*premise.requirement].given) {
+      ledger_.state(Assumption::clock_difference, promise_text(r_.requirements[*premise.requirement], premise),
+                    premise.after);
+      ledger_.give(Assumption::clock_difference, "given by the scenario; no run of takt verify may show more");
+    } else if (!premise.requirement)
       ledger_.leave_open(Assumption::clock_difference,
                          "no requirement \"sync\" or \"clocks\" says how far clocks may differ, and since when");
     else
       ledger_.leave_open(Assumption::clock_difference, "synchronisation is simulated, not bounded");
     if (const std::string why = why_apart(); !why.empty()) ledger_.violate(Assumption::clock_difference, why);
+  }
+
+  /// "clocks are within 1us of the grandmaster from 2s on".
+  static std::string promise_text(const scenario::RequiredFigure& required, const ClockPremise& premise) {
+    const bool is_of_grandmaster = required.kind == results::RequirementKind::sync;
+    std::string text = "clocks are within " + to_text(*required.longest) +
+                       (is_of_grandmaster ? " of the grandmaster" : " of each other");
+    return premise.after > Duration() ? text + " from " + to_text(premise.after) + " on" : text;
   }
 
   /// Nodes whose ways meet, and which gPTP leaves with different grandmasters; empty: there are none.
@@ -143,7 +155,17 @@ class Assessor {
       return;
     }
     ledger_.state(Assumption::drained, "what was sent before " + to_text(last) + " has left the network", last);
-    ledger_.leave_open(Assumption::drained, "how long that takes is not bounded");
+    if (is_given_with_clocks(last))
+      ledger_.give(Assumption::drained, "given with the clocks: what is promised is the plant in operation");
+    else
+      ledger_.leave_open(Assumption::drained, "how long that takes is not bounded");
+  }
+
+  /// A data sheet promises the clocks, and all else holds when they do.
+  bool is_given_with_clocks(Duration last) const {
+    const AssessedAssumption& clocks = ledger_[Assumption::clock_difference];
+    return graph_.assumptions.contains(Assumption::clock_difference) && clocks.standing == Standing::condition &&
+           clocks.holds_from == last && !jumps_at_start_;
   }
 
   const scenario::Resolved& r_;
@@ -176,9 +198,13 @@ std::optional<Duration> clock_error_by(const scenario::Resolved& resolved, const
 
 ClockPremise clock_premise(const scenario::Resolved& resolved, const BoundOptions& options) {
   ClockPremise premise{options.clock_error, Duration(), std::nullopt};
+  const auto is_given = [&](const scenario::RequiredFigure& required) {
+    return required.given && clock_error_by(resolved, required);
+  };
+  const bool given_alone = std::ranges::any_of(resolved.requirements, is_given);  // others are asked for, not promised
   for (std::size_t i = 0; i < resolved.requirements.size(); ++i) {
     const std::optional<Duration> error = clock_error_by(resolved, resolved.requirements[i]);
-    if (!error) continue;
+    if (!error || (given_alone && !resolved.requirements[i].given)) continue;
     const Duration from = resolved.requirements[i].from;
     // The weakest one is a consequence of each of the others, from whenever that holds.
     premise.after = premise.requirement ? std::min(premise.after, from) : from;

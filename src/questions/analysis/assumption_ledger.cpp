@@ -37,6 +37,12 @@ void AssumptionLedger::discharge(Assumption assumption, std::string by) {
   entry(assumption).why = std::move(by);
 }
 
+void AssumptionLedger::give(Assumption assumption, std::string by) {
+  if (entry(assumption).standing == Standing::violated) return;
+  entry(assumption).standing = Standing::condition;
+  entry(assumption).why = std::move(by);
+}
+
 void AssumptionLedger::violate(Assumption assumption, std::string witness) {
   if (entry(assumption).standing == Standing::violated) return;
   entry(assumption).standing = Standing::violated;

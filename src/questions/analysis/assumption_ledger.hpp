@@ -40,6 +40,8 @@ class AssumptionLedger {
   /// Says what is assumed in words of the scenario.
   void state(Assumption assumption, std::string text, sim::Duration holds_from = {});
   void leave_open(Assumption assumption, std::string why);
+  /// A data sheet promises it: a condition of what rests on it, unless something violates it.
+  void give(Assumption assumption, std::string by);
   /// No effect on what is violated: a proof does not undo a run.
   void discharge(Assumption assumption, std::string by);
   /// The first witness is kept.

@@ -9,15 +9,17 @@
 #include "analysis/dds_sources.hpp"
 #include "analysis/delivery_bound.hpp"
 #include "analysis/figure_bound.hpp"
+#include "analysis/misses_bound.hpp"
 #include "analysis/network_bound.hpp"
 #include "analysis/outages.hpp"
 #include "analysis/program_assessment.hpp"
 #include "analysis/program_reactions.hpp"
 #include "analysis/separated_flow.hpp"
 #include "analysis/surviving_copies.hpp"
+#include "json/quantity.hpp"
 #include "results/run_result.hpp"
-#include "scenario/resolved/resolved_dds.hpp"
 #include "scenario/figures/requirement.hpp"
+#include "scenario/resolved/resolved_dds.hpp"
 #include "sim/check.hpp"
 
 namespace takt::analysis {
@@ -320,7 +322,8 @@ void withdraw(Bounds& bounds) {
 
 class RequirementBounds {
  public:
-  RequirementBounds(const scenario::Resolved& resolved, Bounds& bounds) : r_(resolved), bounds_(bounds) {}
+  RequirementBounds(const scenario::Resolved& resolved, const FlowGraph& graph, Bounds& bounds)
+      : r_(resolved), graph_(graph), bounds_(bounds) {}
 
   void make() {
     for (const scenario::RequiredFigure& required : r_.requirements) bounds_.requirements.push_back(of(required));
@@ -340,6 +343,7 @@ class RequirementBounds {
       if (required.kind == kind) return {{}, {}, reason, {}};
     if (required.kind == figure || required.kind == success) return of_figure(required);
     if (required.kind == reaction) return of_reaction(*scenario::reaction_of(required.figure));
+    if (is_of_misses(required.kind) && required.figure.steps.front() == "programs") return of_late_reactions(required);
     const auto stream = std::ranges::find(bounds_.streams, required.subject, &StreamBound::name);
     TAKT_CHECK(stream != bounds_.streams.end(), "a stream of a requirement is one");
     if (required.kind == latency) return {stream->latency, {}, stream->reason, stream->assumptions};
@@ -348,7 +352,20 @@ class RequirementBounds {
               {},
               stream->reason,
               stream->assumptions};
+    if (is_of_misses(required.kind)) return misses_bound(r_, graph_, *stream, required);
     return of_losses(*stream);
+  }
+
+  /// None is late if all are bounded by the deadline.
+  RequirementBound of_late_reactions(const scenario::RequiredFigure& required) const {
+    RequirementBound bound = of_reaction(*scenario::reaction_of(required.figure));
+    if (bound.duration && *bound.duration <= *required.deadline)
+      bound.count = 0;
+    else if (bound.duration)
+      bound.reason = "it takes at most " + json::to_text(*bound.duration) +
+                     ", beyond the deadline: nothing shows how many in a row are late";
+    bound.duration.reset();
+    return bound;
   }
 
   RequirementBound of_figure(const scenario::RequiredFigure& required) const {
@@ -380,14 +397,20 @@ class RequirementBounds {
     return worst;
   }
 
+  /// Whether halts by a mismatch have a bound of their own, as they have where calls come from some alone.
+  bool has_mismatches(const ReactionBound& like) const {
+    return std::ranges::any_of(bounds_.reactions, [&](const ReactionBound& each) {
+      return each.program == like.program && each.of_tree == like.of_tree && each.cause == handshake::Cause::mismatch;
+    });
+  }
+
   /// Without a cause: a call, and whatever the scenario's faults can do.
   bool is_meant(const ReactionBound& bound, const std::optional<handshake::Cause>& cause) const {
     using handshake::Cause;
-    if (cause)
-      return bound.cause == (*cause == Cause::nested || *cause == Cause::mismatch
-                                 ? Cause::command
-                                 : *cause);  // these spread as a call does
-    if (bound.cause == Cause::command) return true;
+    // A mismatch spreads as a call does that may be made anywhere.
+    if (cause == Cause::mismatch && has_mismatches(bound)) return bound.cause == Cause::mismatch;
+    if (cause) return bound.cause == (*cause == Cause::nested || *cause == Cause::mismatch ? Cause::command : *cause);
+    if (bound.cause == Cause::command || bound.cause == Cause::mismatch) return true;
     const std::vector<Cause> causes = causes_of_halts(r_, bounds_, bound.program, bound.of_tree);
     return std::find(causes.begin(), causes.end(), bound.cause) != causes.end();
   }
@@ -403,6 +426,7 @@ class RequirementBounds {
   }
 
   const scenario::Resolved& r_;
+  const FlowGraph& graph_;
   Bounds& bounds_;
 };
 
@@ -535,7 +559,7 @@ Bounds bound(const scenario::Resolved& resolved, const BoundOptions& options) {
   bounds.deliveries = delivery_bounds(resolved, options, bounds);
   add_reactions(resolved, options, bounds);
   assess_programs(resolved, bounds);
-  RequirementBounds(resolved, bounds).make();
+  RequirementBounds(resolved, graph, bounds).make();
   return bounds;
 }
 

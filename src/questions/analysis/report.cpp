@@ -134,7 +134,7 @@ std::string text_report(const scenario::Resolved& resolved, const Bounds& bounds
           deliveries_text(bounds, resolved, all) + reactions_text(bounds, resolved, all);
   if (!bounds.requirements.empty()) text += "\nRequirements and what they can be at most\n";
   for (std::size_t i = 0; i < bounds.requirements.size(); ++i)
-    text += fmt::format("  {:<48} {}\n", resolved.requirements[i].text,
+    text += fmt::format("  {:<48} {}\n", results::titled(resolved.requirements[i].name, resolved.requirements[i].text),
                         requirement_answer(bounds.requirements[i], bounds.ledger, resolved.requirements[i].from));
   if (!all.empty()) text += "\nThese bounds rest on\n";
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -157,8 +157,8 @@ std::string json_report(const scenario::Resolved& resolved, const Bounds& bounds
   for (std::size_t i = 0; i < bounds.requirements.size(); ++i) {
     const scenario::RequiredFigure& asked = resolved.requirements[i];
     std::string objection = bounds.ledger.objection(bounds.requirements[i].assumptions, asked.from);
-    report.requirements.push_back(
-        {asked.text, &bounds.requirements[i], objection.empty() ? std::nullopt : std::optional(std::move(objection))});
+    report.requirements.push_back({asked.name, asked.text, &bounds.requirements[i],
+                                   objection.empty() ? std::nullopt : std::optional(std::move(objection))});
   }
   for (const Assumption assumption : all_assumptions(bounds))
     report.assumptions.emplace_back(name_of(assumption), bounds.ledger[assumption]);

@@ -234,6 +234,8 @@ const json::Record& describe(json::Type<ReportedDelivery>) {
 
 const json::Record& describe(json::Type<ReportedRequirement>) {
   static constexpr json::Output outputs[] = {
+      json::output_if_any<&ReportedRequirement::name>("name", "The name that the scenario gives it.",
+                                                      "where it gives one"),
       json::output<&ReportedRequirement::text>("text", "What is asked."),
       json::output<&duration_of_requirement>("bound_ps",
                                              "What it can be at most; null where it is no time, or not bounded."),

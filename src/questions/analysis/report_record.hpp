@@ -41,6 +41,7 @@ struct ReportedThread {
 };
 
 struct ReportedRequirement {
+  std::string name;
   std::string text;
   const RequirementBound* bound = nullptr;
   std::optional<std::string> objection;

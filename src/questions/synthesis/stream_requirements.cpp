@@ -22,7 +22,7 @@ bool is_of_streams(const scenario::RequiredFigure& required) {
 StreamRequirement judged(const scenario::RequiredFigure& required, const analysis::RequirementBound& bound,
                          const verify::Proof& proof) {
   StreamRequirement made;
-  made.text = required.text;
+  made.text = results::titled(required.name, required.text);
   made.stream = required.subject;
   made.bound = proof.time;
   made.limit = required.longest;

@@ -43,6 +43,7 @@ class Searcher {
            Budget& budget)
       : resolved_(resolved),
         bounds_(bounds),
+        options_(options),
         budget_(budget),
         trials_(resolved, bounds, options, budget),
         instants_(resolved, trials_.ground().variables),
@@ -66,9 +67,11 @@ class Searcher {
   void look_for_all() {
     std::vector<Finding>& findings = trials_.search().findings;
     std::uint64_t weights = 0;
+    const auto is_asked = [&](std::size_t line) { return options_.asked.empty() || options_.asked[line]; };
     for (std::size_t line = 0; line < findings.size(); ++line)
-      weights += weight_of(trials_.is_proved(line), findings[line].requirement.kind);
+      if (is_asked(line)) weights += weight_of(trials_.is_proved(line), findings[line].requirement.kind);
     for (std::size_t line = 0; line < findings.size() && !trials_.is_interrupted(); ++line) {
+      if (!is_asked(line)) continue;
       const std::uint64_t weight = weight_of(trials_.is_proved(line), findings[line].requirement.kind);
       const std::uint64_t all = of_all(budget_.events());
       trials_.begin(line, (all - std::min(all, budget_.spent())) / weights * weight);
@@ -82,7 +85,8 @@ class Searcher {
                       : trials_.is_at_bound()  ? Ended::bound_reached
                                                : ended;
       finding.exhaustive = finding.ended == Ended::nothing_free ||
-                           (finding.ended == Ended::all_meetings && shows_all_meetings(resolved_, bounds_));
+                           (finding.ended == Ended::all_meetings && !is_of_misses(finding.requirement.kind) &&
+                            shows_all_meetings(resolved_, bounds_));
     }
   }
 
@@ -114,10 +118,13 @@ class Searcher {
   /// How many frames come until the end depends on when talkers begin, and says nothing about the network.
   static bool is_judged_as_it_is(const RequirementResult& requirement) {
     return requirement.kind == RequirementKind::delivered ||
-           (requirement.figure && !requirement.figure->is_upper && requirement.subject.empty());
+           (requirement.figure && !requirement.figure->is_upper && requirement.subject.empty() &&
+            !is_of_misses(requirement.kind));
   }
   /// Of one that has none there is no uphill.
-  static bool has_time(const RequirementResult& requirement) { return requirement.limit.has_value(); }
+  static bool has_time(const RequirementResult& requirement) {
+    return requirement.limit.has_value() || is_of_misses(requirement.kind);
+  }
 
   Ended try_anywhere() {
     std::vector<Choice> choices;
@@ -294,6 +301,7 @@ class Searcher {
 
   const scenario::Resolved& resolved_;
   const analysis::Bounds& bounds_;
+  const SearchOptions& options_;
   Budget& budget_;
   Trials trials_;
   CriticalInstants instants_;

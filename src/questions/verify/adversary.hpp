@@ -23,7 +23,8 @@ struct SearchOptions {
       4;              ///< runs of the scenario as it is, with this seed and those after it; two where chance has no say
   unsigned jobs = 1;  ///< threads; the result does not depend on it
   std::uint64_t events =
-      default_events;  ///< what all may cost, in events of runs, besides one run of the scenario as it is
+      default_events;            ///< what all may cost, in events of runs, besides one run of the scenario as it is
+  std::vector<bool> asked = {};  ///< which findings are searched for, in their order; all if empty
   std::function<bool()> interrupted;  ///< asked between runs and within them, and within analyses
   std::function<void(std::uint64_t events, std::uint64_t of)> progress;  ///< told between runs
 };

@@ -37,6 +37,8 @@ class Prover {
     proof.time = bound.duration;
     proof.reason = bound.reason;
     proof.assumptions = bound.assumptions;
+    proof.is_given = required.given;
+    if (is_of_misses(required.kind)) return misses(required, bound, std::move(proof));
     if (required.kind == RequirementKind::figure || required.kind == RequirementKind::success)
       return figure(required, bound, std::move(proof));
     if (required.kind == RequirementKind::delivered) return delivered(required, std::move(proof));
@@ -83,6 +85,18 @@ class Prover {
       }
     }
     proof.holds = true;
+  }
+
+  /// The most that may be missed one after another, or the fewest that are met.
+  static Proof misses(const RequiredFigure& required, const analysis::RequirementBound& bound, Proof proof) {
+    if (!bound.count) return proof;
+    const bool is_met = required.kind == RequirementKind::met;
+    const std::uint64_t value = is_met ? required.of - std::min(required.of, *bound.count) : *bound.count;
+    proof.holds = required.limit.holds(static_cast<double>(value));
+    proof.remark = fmt::format("{} {} {}", is_met ? "at least" : "at most", value, scenario::misses_name(required));
+    if (!proof.holds)
+      proof.reason = fmt::format("{} may be {}", *bound.count, is_met ? "missed" : scenario::misses_name(required));
+    return proof;
   }
 
   static void judge_count(const RequiredFigure& required, std::optional<std::uint64_t> count, Proof& proof) {

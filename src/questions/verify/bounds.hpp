@@ -19,9 +19,10 @@ struct Proof {
   std::optional<sim::Duration> time;  ///< of requirements about times
   bool holds = false;                 ///< the requirement is always met
   bool is_reported_only =
-      false;           ///< invariants whose violations the scenario only reports: nothing is proved, and nothing fails
-  std::string reason;  ///< why nothing is proved, else empty
-  std::string remark;  ///< how it is proved, where that is no bound
+      false;  ///< invariants whose violations the scenario only reports: nothing is proved, and nothing fails
+  bool is_given = false;              ///< a promise of a data sheet: nothing is proved
+  std::string reason;                 ///< why nothing is proved, else empty
+  std::string remark;                 ///< how it is proved, where that is no bound
   analysis::Assumptions assumptions;  ///< what the proof rests on; the ledger says whether it stands
   sim::Duration from;                 ///< since the start: the requirement counts from then on
 };

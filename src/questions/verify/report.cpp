@@ -65,11 +65,14 @@ std::string help_text(const Line& line) {
 
 /// Eight columns would not fit, so each requirement has several lines.
 std::string line_text(const Line& line, const std::string& file) {
-  std::string out = fmt::format("  {:<9}  {}\n", name_of(line.verdict), line.requirement.text);
+  const std::string verdict = name_of(line.verdict) + (line.provided.empty() ? std::string() : ", if " + line.provided);
+  std::string out = fmt::format("  {:<9}  {}\n", verdict, results::titled(line.requirement));
   if (line.requirement.limit)
     out += fmt::format("             simulated {} <= adversarial {} <= bound {}; limit {}{}\n", figure(line.simulated),
                        figure(line.adversarial), figure(line.bound), figure(line.requirement.limit),
                        line.tightness() ? fmt::format("; tightness {:.0f} %", 100 * *line.tightness()) : "");
+  if (line.verdict == Conclusion::given)
+    out += "             a data sheet promises it: nothing is proved of it, and no run that was found shows more\n";
   if (line.verdict == Conclusion::reported)
     out += fmt::format("             reported only: up to {} violation{} in a run\n", *line.violations,
                        *line.violations == 1 ? "" : "s");
@@ -88,7 +91,7 @@ std::string line_text(const Line& line, const std::string& file) {
 std::string verdict_text(const Verification& verification) {
   return verification.lines.empty() && !verification.partial && !verification.contradiction
              ? results::nothing_was_required
-             : name_of(verification.verdict());
+             : verification.verdict_text();
 }
 
 /// What only the plant can keep, of all that is proved.
@@ -127,10 +130,13 @@ std::string text_report(const std::string& scenario, const Verification& verific
     return std::ranges::count(verification.lines, verdict, &Line::verdict);
   };
   const auto reported = count(Conclusion::reported);
-  std::string out = fmt::format("{}: {} of {} requirements proved{}, {} runs{}\n\n", scenario, count(Conclusion::pass),
-                                verification.lines.size() - static_cast<std::size_t>(reported),
-                                reported > 0 ? fmt::format(", {} reported only", reported) : "", verification.runs,
-                                verification.partial ? ", interrupted" : "");
+  const auto given = count(Conclusion::given);
+  std::string out =
+      fmt::format("{}: {} of {} requirements proved{}{}, {} runs{}\n\n", scenario, count(Conclusion::pass),
+                  verification.lines.size() - static_cast<std::size_t>(reported + given),
+                  reported > 0 ? fmt::format(", {} reported only", reported) : "",
+                  given > 0 ? fmt::format(", {} given", given) : "", verification.runs,
+                  verification.partial ? ", interrupted" : "");
   for (std::size_t i = 0; i < verification.lines.size(); ++i) out += line_text(verification.lines[i], files[i]);
   if (!verification.variables.empty()) {
     out += fmt::format("\nFree, hence searched for the worst ({}):\n", verification.variables.size());
@@ -147,7 +153,14 @@ std::string text_report(const std::string& scenario, const Verification& verific
 
 std::string json_report(const std::string& scenario, const Verification& verification,
                         const std::vector<std::string>& files, const Witnesses& witnesses) {
-  Report report{scenario, verdict_text(verification), verification.runs, verification.partial, {}, {}, {}, {}};
+  Report report{scenario,
+                verification.lines.empty() ? verdict_text(verification) : name_of(verification.verdict()),
+                verification.runs,
+                verification.partial,
+                {},
+                {},
+                {},
+                {}};
   for (const FreeVariable& variable : verification.variables) {
     const Duration range = variable.is_latency() ? variable.greatest - variable.least : variable.range;
     report.free.push_back(

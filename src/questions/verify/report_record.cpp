@@ -14,6 +14,7 @@ std::optional<std::string> unless_empty(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
+std::string name_of_requirement(const ReportedLine& row) { return row.line->requirement.name; }
 std::string text_of(const ReportedLine& row) { return row.line->requirement.text; }
 std::optional<Duration> simulated(const ReportedLine& row) { return row.line->simulated; }
 std::optional<Duration> adversarial(const ReportedLine& row) { return row.line->adversarial; }
@@ -26,6 +27,7 @@ std::string ended(const ReportedLine& row) { return name_of(row.line->ended); }
 std::optional<std::uint64_t> violations(const ReportedLine& row) { return row.line->violations; }
 bool is_exhaustive(const ReportedLine& row) { return row.line->exhaustive; }
 std::optional<std::string> reason(const ReportedLine& row) { return unless_empty(row.line->reason); }
+std::string provided(const ReportedLine& row) { return row.line->provided; }
 std::optional<std::string> remark(const ReportedLine& row) { return unless_empty(row.line->remark); }
 const std::vector<SlackPart>& slack(const ReportedLine& row) { return row.line->slack; }
 const std::vector<WeightyPart>& weighty(const ReportedLine& row) { return row.line->weighty; }
@@ -79,6 +81,7 @@ const json::Record& describe(json::Type<Remedy>) {
 
 const json::Record& describe(json::Type<ReportedLine>) {
   static constexpr json::Output outputs[] = {
+      json::output_if_any<&name_of_requirement>("name", "The name that the scenario gives it.", "where it gives one"),
       json::output<&text_of>("text", "What is required."),
       json::output<&simulated>("simulated_ps",
                                "The greatest in runs of the scenario as it is; null where it is no time."),
@@ -86,8 +89,11 @@ const json::Record& describe(json::Type<ReportedLine>) {
       json::output<&bound>("bound_ps", "What no run exceeds; null: no bound, or one that does not stand."),
       json::output<&limit>("limit_ps", "What is asked; null where it is no time."),
       json::output<&verdict>("verdict",
-                             "`pass` (proved), `refuted`, `undecided`, `contradiction` (a mistake of takt), or "
-                             "`reported` (violations are reported only, so nothing is proved and nothing fails)."),
+                             "`pass` (proved), `refuted`, `undecided`, `contradiction` (a mistake of takt), `reported` "
+                             "(violations are reported only, so nothing is proved and nothing fails), or `given` (a "
+                             "data sheet promises it, and no run that was found shows more)."),
+      json::output_if_any<&provided>("if", "The promises of data sheets that the proof rests on.",
+                                     "of what is proved on such a condition"),
       json::output<&tightness>("tightness", "adversarial / bound; null without either."),
       json::output<&runs>("runs", "Of the search for this requirement."),
       json::output<&ended>(
@@ -141,9 +147,9 @@ const json::Record& describe(json::Type<ReportedContradiction>) {
 const json::Record& describe(json::Type<Report>) {
   static constexpr json::Output outputs[] = {
       json::output<&Report::scenario>("scenario", "Its name."),
-      json::output<&Report::verdict>(
-          "verdict",
-          "Of all requirements: the worst; `reported` if there are only such; `nothing was required` without one."),
+      json::output<&Report::verdict>("verdict",
+                                     "Of all requirements: the worst; `reported` or `given` if there are only such; "
+                                     "`nothing was required` without one."),
       json::output<&Report::runs>("runs", "In all."),
       json::output<&Report::partial>("partial", "It was interrupted."),
       json::output<&Report::free>("free", "What the search for the worst run chooses."),

@@ -24,7 +24,7 @@ constexpr Duration next_to_nothing = Duration::from_ps(5'000);
 /// What a shorter run says of a requirement counts only if a longer one would say it too.
 bool counts_in_a_part(RequirementKind kind) {
   return kind == RequirementKind::reaction || kind == RequirementKind::latency || kind == RequirementKind::jitter ||
-         kind == RequirementKind::invariants;
+         kind == RequirementKind::invariants || is_of_misses(kind);
 }
 
 /// A frame came sooner than an exact latency allows, which no later one mends. Of jitter a part shows less than the
@@ -170,13 +170,12 @@ void Trials::note(const Probe& probe, const FoundRun& run, bool is_as_it_is) {
     }
     // How many frames come until the end depends on when the talker begins, and says nothing about the network.
     const bool is_of_latency = seen.kind == RequirementKind::figure && !seen.subject.empty();
-    if (!is_as_it_is &&
-        (seen.kind == RequirementKind::delivered || (seen.figure && !seen.figure->is_upper && !is_of_latency)))
-      continue;
+    const bool is_of_all_frames = seen.figure && !seen.figure->is_upper && !is_of_latency && !is_of_misses(seen.kind);
+    if (!is_as_it_is && (seen.kind == RequirementKind::delivered || is_of_all_frames)) continue;
     // What was not complete at the end might have been so later.
     const bool failed =
         seen.verdict == results::Verdict::fail &&
-        (!is_part || seen.measured || seen.kind == RequirementKind::invariants) &&
+        (!is_part || seen.measured || seen.kind == RequirementKind::invariants || is_of_misses(seen.kind)) &&
         !(is_part && seen.measured && seen.limit && *seen.measured <= *seen.limit && !is_too_fast(seen));
     Worst made{seen.measured, failed || finding.worst.failed, run, seen.figure ? seen.figure->found : std::nullopt};
     if (!finding.longest.run || seen.measured > finding.longest.measured) finding.longest = made;
@@ -190,6 +189,9 @@ void Trials::note(const Probe& probe, const FoundRun& run, bool is_as_it_is) {
 std::int64_t Trials::badness(const Probe& probe) const {
   const RequirementResult& seen = probe.requirements[line_];
   if (seen.measured) return seen.measured->ps();
+  // More in a row are worse, and so are fewer that are met.
+  if (is_of_misses(seen.kind) && seen.figure && seen.figure->found)
+    return static_cast<std::int64_t>(seen.figure->is_upper ? *seen.figure->found : 1'000'000'000 - *seen.figure->found);
   return seen.verdict == results::Verdict::fail ? 1 : 0;
 }
 
@@ -259,6 +261,7 @@ bool Trials::loses_too_much(const Choice& choice, const Probe& probe) const {
     loses = loses || (ground_->variables[f].kind == FreeVariable::Kind::losses && choice.values[f] != Duration());
   return loses && std::any_of(probe.requirements.begin(), probe.requirements.end(), [](const RequirementResult& each) {
            const bool is_of_losses = each.kind == RequirementKind::dropped || each.kind == RequirementKind::delivered ||
+                                     is_of_misses(each.kind) ||
                                      (each.figure && (each.figure->name == "lost" || each.figure->name == "dropped" ||
                                                       each.figure->name.ends_with("/lost")));
            return is_of_losses && each.verdict == results::Verdict::fail;

@@ -2,12 +2,13 @@
 #include "verify/verification.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace takt::verify {
 
 const char* name_of(Conclusion verdict) {
-  constexpr const char* names[] = {"pass", "refuted", "undecided", "contradiction", "reported"};
+  constexpr const char* names[] = {"pass", "refuted", "undecided", "contradiction", "reported", "given"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
@@ -23,10 +24,32 @@ Conclusion Verification::verdict() const {
   };
   if (is_any(Conclusion::refuted)) return Conclusion::refuted;
   if (partial || is_any(Conclusion::undecided)) return Conclusion::undecided;
-  return is_any(Conclusion::reported) && !is_any(Conclusion::pass) ? Conclusion::reported : Conclusion::pass;
+  if (is_any(Conclusion::pass)) return Conclusion::pass;
+  return is_any(Conclusion::reported) ? Conclusion::reported
+         : is_any(Conclusion::given)  ? Conclusion::given
+                                      : Conclusion::pass;
+}
+
+std::string Verification::verdict_text() const {
+  std::set<std::string> provided;
+  if (verdict() == Conclusion::pass)
+    for (const Line& line : lines)
+      if (!line.provided.empty()) provided.insert(line.provided);
+  std::string text = name_of(verdict());
+  for (const std::string& each : provided) text += (each == *provided.begin() ? ", if " : " and ") + each;
+  return text;
 }
 
 namespace {
+
+/// Which of the assumptions nothing but a data sheet promises.
+std::string promises_in(const analysis::Assumptions& assumptions, const analysis::AssumptionLedger& ledger) {
+  std::string text;
+  for (const analysis::Assumption each : assumptions.list())
+    if (ledger[each].standing == analysis::Standing::condition && !analysis::is_condition(each))
+      text += (text.empty() ? "" : " and ") + ledger[each].text;
+  return text;
+}
 
 /// The one place that says pass: the proof holds, and so does all that it rests on.
 Line line_of(const Finding& finding, const Proof& proof, const analysis::AssumptionLedger& ledger) {
@@ -51,12 +74,15 @@ Line line_of(const Finding& finding, const Proof& proof, const analysis::Assumpt
   }
   if (finding.worst.failed)
     line.verdict = Conclusion::refuted;
+  else if (proof.is_given)
+    line.verdict = Conclusion::given;
   else if (proof.holds && objection.empty())
     line.verdict = Conclusion::pass;
   if (line.bound && line.requirement.limit && *line.bound > *line.requirement.limit)
     line.reason = finding.worst.failed ? "a run exceeds the limit"
                                        : "no run that was found exceeds the limit, but the bound does";
   if ((proof.holds || proof.time) && !objection.empty()) line.reason = objection;
+  if (line.verdict == Conclusion::pass) line.provided = promises_in(proof.assumptions, ledger);
   return line;
 }
 
@@ -65,16 +91,32 @@ void settle(analysis::AssumptionLedger& ledger, const std::vector<Violation>& vi
   for (const Violation& violation : violations) ledger.violate(violation.assumption, violation.witness);
 }
 
+/// A run fails what a proof says. A bound says how long a reaction or a frame takes, not that there is one: a
+/// requirement that fails for want of it is refuted, and that is all. Likewise a figure.
+bool fails_what_is_said(const Finding& finding, const Proof& proof) {
+  if (!finding.worst.failed || !proof.holds) return false;
+  if (finding.requirement.limit && !finding.worst.measured) return false;
+  return !finding.requirement.figure || finding.worst.figure;
+}
+
+/// A run that fails what is proved on a promise of a data sheet shows that the promise is not kept.
+void withdraw_promises(analysis::AssumptionLedger& ledger, const std::vector<Finding>& findings,
+                       const std::vector<Proof>& proofs) {
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    if (!fails_what_is_said(findings[i], proofs[i])) continue;
+    for (const analysis::Assumption each : proofs[i].assumptions.list())
+      if (each == analysis::Assumption::drained && ledger[each].standing == analysis::Standing::condition)
+        ledger.violate(each, "a run fails " + results::titled(findings[i].requirement));
+  }
+}
+
 /// A proof that stands, of a requirement that a run has failed.
 std::optional<Contradiction> contradiction_of(const Line& line, const Finding& finding, const Proof& proof,
                                               const analysis::AssumptionLedger& ledger) {
-  if (line.verdict != Conclusion::refuted || !proof.holds || !ledger.objection(proof.assumptions, proof.from).empty())
-    return std::nullopt;
-  // A bound says how long a reaction or a frame takes, not that there is one: a requirement that fails for want of it
-  // is refuted, and that is all.
-  if (line.requirement.limit && !finding.worst.measured) return std::nullopt;
-  if (line.requirement.figure && !finding.worst.figure) return std::nullopt;  // likewise
-  return Contradiction{line.requirement.text + ": a run fails what is proved", finding.worst.run.scenario()};
+  if (line.verdict != Conclusion::refuted || !fails_what_is_said(finding, proof)) return std::nullopt;
+  if (!ledger.objection(proof.assumptions, proof.from).empty()) return std::nullopt;
+  return Contradiction{results::titled(line.requirement) + ": a run fails what is proved",
+                       finding.worst.run.scenario()};
 }
 
 /// Of the runs that the explanation of a line takes.
@@ -98,7 +140,7 @@ void add_help(Verification& result, const scenario::Resolved& resolved, unsigned
               std::uint64_t cost_of_run) {
   if (result.contradiction || result.partial) return;
   for (Line& line : result.lines) {
-    if (line.verdict == Conclusion::pass || line.verdict == Conclusion::reported) continue;
+    if (line.verdict != Conclusion::refuted && line.verdict != Conclusion::undecided) continue;
     if (line.adversarial && budget.left() >= replays * cost_of_run) {
       budget.spend(replays / 2 * cost_of_run);
       line.weighty =
@@ -106,6 +148,15 @@ void add_help(Verification& result, const scenario::Resolved& resolved, unsigned
     }
     line.remedies = remedies_for(resolved, line.requirement, seeds, cost_of_run, budget);
   }
+}
+
+/// Those that are asked for; all if nothing is said.
+void keep(std::vector<Finding>& findings, const std::vector<bool>& asked) {
+  if (asked.empty()) return;
+  std::vector<Finding> kept;
+  for (std::size_t i = 0; i < findings.size(); ++i)
+    if (asked[i]) kept.push_back(std::move(findings[i]));
+  findings = std::move(kept);
 }
 
 /// How many states of the handshake may be looked at: some whatever the budget, and others for twenty events each.
@@ -125,6 +176,7 @@ Verification conclude(Search found, const std::vector<Proof>& proofs, const anal
   result.contradiction = std::move(found.contradiction);
   result.ledger = ledger;
   settle(result.ledger, found.violations);
+  withdraw_promises(result.ledger, found.findings, proofs);
   for (std::size_t i = 0; i < found.findings.size(); ++i) {
     result.lines.push_back(line_of(found.findings[i], proofs[i], result.ledger));
     if (!result.contradiction)
@@ -143,6 +195,7 @@ Verification verify(const scenario::Resolved& resolved, const Options& options) 
     return none;
   }
   Search found = search(resolved, bounds, options.search, budget);
+  keep(found.findings, options.search.asked);
   const std::uint64_t cost_of_run = found.cost_of_run;
   std::vector<results::RequirementResult> requirements;
   for (const Finding& finding : found.findings) requirements.push_back(finding.requirement);

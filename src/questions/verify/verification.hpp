@@ -20,6 +20,7 @@ enum class Conclusion : std::uint8_t {
   undecided,      ///< no run was found, and none is excluded
   contradiction,  ///< a run exceeds what was proved: a mistake of takt, nothing here is to be trusted
   reported,       ///< violations are reported only: nothing is proved, and nothing fails
+  given,          ///< a promise of a data sheet that no run contradicts: nothing is proved of it
 };
 const char* name_of(Conclusion verdict);
 
@@ -31,6 +32,7 @@ struct Line {
   std::optional<sim::Duration> bound;
   std::string reason;                 ///< why it is not proved
   std::string remark;                 ///< how it is proved, where that is no bound
+  std::string provided;               ///< of what is proved: the promises that it rests on; empty: none
   analysis::Assumptions assumptions;  ///< what the bound or proof rests on
   FoundRun worst;                     ///< the worst run; one that fails, if any does
   FoundRun longest;                   ///< the run that `adversarial` was measured in
@@ -56,6 +58,8 @@ struct Verification {
   /// Contradiction if there is one, else refuted if one is, else undecided if one is, else pass if one is proved; of
   /// what is reported only reported.
   Conclusion verdict() const;
+  /// "pass, if clocks are within 1us of the grandmaster".
+  std::string verdict_text() const;
 };
 
 struct Options {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "evaluation/collect_applications.hpp"
 #include "evaluation/collect_clocks.hpp"
@@ -12,8 +13,9 @@
 #include "evaluation/judge.hpp"
 #include "results/result_json.hpp"
 #include "results/version.hpp"
-#include "scenario/run/accounts.hpp"
 #include "scenario/figures/graph_figures.hpp"
+#include "scenario/run/accounts.hpp"
+#include "sim/check.hpp"
 
 namespace takt::evaluation {
 
@@ -202,7 +204,6 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   result.from = from;
   result.digest = run.simulation().digest().value();
   result.events = run.simulation().event_count();
-  result.verdict = partial ? Verdict::undecided : Verdict::pass;
   result.streams = streams_of(run, from);
   for (std::size_t p = 0; p < run.resolved().programs.size(); ++p)
     result.programs.push_back(result_of(run, p, TrueTime() + from));
@@ -219,6 +220,14 @@ RunResult collect(const scenario::Run& run, Duration from, bool partial) {
   result.ingress = ingress_of(run);
   result.redundancy = redundancy_of(run);
   return result;
+}
+
+/// The verdict of all that is required.
+void conclude(RunResult& result) {
+  result.verdict = result.partial ? Verdict::undecided : Verdict::pass;
+  for (const RequirementResult& each : result.requirements)
+    if (each.verdict == Verdict::fail || result.verdict == Verdict::pass) result.verdict = each.verdict;
+  result.nothing_required = result.requirements.empty() && !result.partial;
 }
 
 /// The figures of every instant from which a requirement counts.
@@ -246,10 +255,17 @@ RunResult evaluate(const scenario::Run& run, bool partial) {
     result.requirements.push_back(judge(run, required, figures.at(required.from), partial));
   for (const ProgramResult& program : result.programs)
     result.requirements.push_back(judge_invariants(program, partial));
-  for (const RequirementResult& each : result.requirements)
-    if (each.verdict == Verdict::fail || result.verdict == Verdict::pass) result.verdict = each.verdict;
-  result.nothing_required = result.requirements.empty() && !partial;
+  conclude(result);
   return result;
+}
+
+void keep_requirements(RunResult& result, const std::vector<bool>& asked) {
+  TAKT_CHECK(asked.size() == result.requirements.size(), "what is asked for is said of each line of the result");
+  std::vector<RequirementResult> kept;
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (asked[i]) kept.push_back(std::move(result.requirements[i]));
+  result.requirements = std::move(kept);
+  conclude(result);
 }
 
 }  // namespace takt::evaluation

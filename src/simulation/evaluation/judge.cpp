@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "evaluation/misses.hpp"
 #include "json/quantity.hpp"
 
 namespace takt::evaluation {
@@ -41,12 +42,11 @@ class Judge {
     verdict_.taken_as = required_.taken_as;
     verdict_.requirement = static_cast<std::size_t>(&required_ - run_.resolved().requirements.data());
     verdict_.subject = required_.subject;
+    verdict_.name = required_.name;
     verdict_.text = required_.text;
     verdict_.limit = required_.longest;
     verdict_.least_limit = required_.shortest;
     verdict_.from = required_.from;
-    if (required_.from > Duration() && required_.kind != RequirementKind::sync)
-      verdict_.text += " after " + to_text(required_.from);
     switch (required_.kind) {
       case RequirementKind::reaction:
         reaction(*scenario::reaction_of(required_.figure));
@@ -78,6 +78,11 @@ class Judge {
       case RequirementKind::irregular:
         irregular();
         break;
+      case RequirementKind::lost_in_a_row:
+      case RequirementKind::late_in_a_row:
+      case RequirementKind::met:
+        in_a_row();
+        break;
       case RequirementKind::figure:
         figure();
         break;
@@ -95,16 +100,29 @@ class Judge {
     return *std::ranges::find(application.threads, required_.figure.steps[3], &ThreadResult::name);
   }
 
-  void reaction(const scenario::AskedReaction& asked) {
+  /// By Program: those that are asked about.
+  std::vector<std::vector<const ReactionResult*>> reactions_of(const scenario::AskedReaction& asked) const {
     const std::string_view kind = scenario::spelling(asked.kind);
     const std::string_view cause = asked.cause ? scenario::spelling(*asked.cause) : "";
+    std::vector<std::vector<const ReactionResult*>> all;
+    for (const ProgramResult& program : figures_.result.programs) {
+      if (asked.program && program.name != *asked.program) continue;
+      all.emplace_back();
+      for (const ReactionResult& one : asked.of_tree ? program.tree_reactions : program.reactions) {
+        if (one.kind != kind || one.superseded || (asked.cause && one.cause != cause)) continue;
+        all.back().push_back(&one);
+      }
+    }
+    return all;
+  }
+
+  void reaction(const scenario::AskedReaction& asked) {
     Times times;
     std::size_t seen = 0;
     std::size_t incomplete = 0;
-    for (const ProgramResult& program : figures_.result.programs) {
-      if (asked.program && program.name != *asked.program) continue;
-      for (const ReactionResult& one : asked.of_tree ? program.tree_reactions : program.reactions) {
-        if (one.kind != kind || one.superseded || (asked.cause && one.cause != cause)) continue;
+    for (const std::vector<const ReactionResult*>& of_program : reactions_of(asked))
+      for (const ReactionResult* const each : of_program) {
+        const ReactionResult& one = *each;
         ++seen;
         if (one.completed) {
           times.longest = std::max(times.longest.value_or(Duration()), *one.duration());
@@ -115,12 +133,53 @@ class Judge {
         const Duration lasted = figures_.result.simulated - one.began.since_start();
         if (lasted > *required_.longest) times.coming = std::max(times.coming.value_or(Duration()), lasted);
       }
-    }
     times.counted = incomplete > 0 ? fmt::format("{} of {} not complete at the end", incomplete, seen)
                                    : fmt::format("{} reaction{}", seen, seen == 1 ? "" : "s");
     times.while_coming = times.counted;
     times.none = seen == 0 ? "no such reaction" : times.counted;
     judge(times);
+  }
+
+  /// Of frames or of reactions: which, when they began, and how many.
+  void in_a_row() {
+    const bool is_of_reactions = required_.figure.steps.front() == "programs";
+    const Misses found = is_of_reactions ? misses_of_reactions() : misses_of_frames();
+    const bool is_met = required_.kind == RequirementKind::met;
+    const double value =
+        static_cast<double>(is_met ? required_.of - std::min(required_.of, found.in_window) : found.in_a_row);
+    const std::string what = is_of_reactions ? "reactions" : "frames";
+    verdict_.figure = FigureResult{scenario::misses_name(required_), what, value, required_.limit.value,
+                                   required_.limit.is_upper(),       {}};
+    const std::string remark =
+        is_met ? fmt::format("{:g} of the worst {} met; {} of {} {} missed", value, required_.of, found.missed,
+                             found.counted, what)
+               : fmt::format("{:g} in a row; {} of {} {} in all", value, found.missed, found.counted, what);
+    if (found.counted > 0 || required_.kind == RequirementKind::lost_in_a_row) return judge(value, remark);
+    verdict_.verdict = missing_;
+    verdict_.remark = is_of_reactions ? "no such reaction" : "nothing sent";
+  }
+
+  Misses misses_of_frames() const {
+    const auto& streams = run_.resolved().plan.streams;
+    const auto index = static_cast<std::uint32_t>(
+        std::ranges::find(streams, required_.subject, &models::StreamPlan::name) - streams.begin());
+    return misses_of(run_, models::StreamIndex{index}, stream().sent, required_.deadline.value_or(Duration::max()),
+                     required_.of);
+  }
+
+  /// Of each Program by itself. One that goes on and is not late yet is none of either.
+  Misses misses_of_reactions() const {
+    Misses most;
+    for (const std::vector<const ReactionResult*>& of_program :
+         reactions_of(*scenario::reaction_of(required_.figure))) {
+      std::vector<bool> missed;
+      for (const ReactionResult* const one : of_program) {
+        const Duration lasted = one->duration().value_or(figures_.result.simulated - one->began.since_start());
+        if (one->completed || lasted > *required_.deadline) missed.push_back(lasted > *required_.deadline);
+      }
+      most.take(misses_of(missed, required_.of));
+    }
+    return most;
   }
 
   /// A frame that is under way will have been so for at least as long when it comes: the latency is never less than
@@ -278,7 +337,7 @@ class Judge {
     const scenario::Figure& asked = required_.figure;
     const scenario::FigureLimit& limit = required_.limit;
     const auto found = scenario::value_of(asked, figures_.node);
-    verdict_.figure = FigureResult{required_.name, asked.unit, found, limit.value, limit.is_upper(), {}};
+    verdict_.figure = FigureResult{required_.figure_name, asked.unit, found, limit.value, limit.is_upper(), {}};
     if (limit.relation == scenario::Relation::equal) verdict_.figure->within = limit.within;
     // To the picosecond: what the division by the unit has made of a whole number of them, and of a mean the nearest.
     const std::optional<Duration> time =
@@ -311,8 +370,7 @@ RequirementResult judge_invariants(const ProgramResult& program, bool partial) {
   RequirementResult verdict;
   verdict.kind = verdict.taken_as = RequirementKind::invariants;
   verdict.subject = program.name;
-  verdict.text = "program " + program.name + " keeps S1 to S5";
-  if (program.violations_allowed) verdict.text += " (reported only)";
+  verdict.text = scenario::invariants_text(program.name, program.violations_allowed);
   verdict.remark = fmt::format("{} violation{}", program.violations.size(), program.violations.size() == 1 ? "" : "s");
   const bool may_come = partial && program.violations.empty();
   verdict.verdict = may_come                                                   ? Verdict::undecided

@@ -148,9 +148,18 @@ enum class RequirementKind : std::uint8_t {
   success,
   buffered,
   irregular,
+  lost_in_a_row,
+  late_in_a_row,
+  met,
   figure,
   invariants
 };
+
+/// Limits on how many are missed one after another.
+constexpr bool is_of_misses(RequirementKind kind) {
+  return kind == RequirementKind::lost_in_a_row || kind == RequirementKind::late_in_a_row ||
+         kind == RequirementKind::met;
+}
 
 /// A figure of the result and the limit that was asked of it, both in its unit.
 struct FigureResult {
@@ -169,6 +178,7 @@ struct RequirementResult {
   std::optional<std::size_t> requirement = {};  ///< in Resolved::requirements; none: a Program's invariants
   std::string subject;                          ///< as RequiredFigure has it; the Program of invariants
   std::string text;
+  std::string name = {};  ///< that the scenario gives it: "REQ-12"; may be empty
   Verdict verdict = Verdict::pass;
   std::optional<Duration> measured;
   std::optional<Duration> limit;
@@ -178,6 +188,10 @@ struct RequirementResult {
   std::string remark;                       ///< what was counted, or why it failed without a figure
   std::optional<FigureResult> figure = {};  ///< of one that asks for a figure
 };
+
+/// As people look for it: "REQ-12: stream camera latency at most 7ms".
+std::string titled(const std::string& name, const std::string& text);
+inline std::string titled(const RequirementResult& requirement) { return titled(requirement.name, requirement.text); }
 
 struct PortResult {
   std::string node;

@@ -20,6 +20,10 @@ const char* name_of(Verdict verdict) {
   return "?";
 }
 
+std::string titled(const std::string& name, const std::string& text) {
+  return name.empty() ? text : name + ": " + text;
+}
+
 namespace {
 
 std::uint32_t behaviour_of(const RunResult&) { return behaviour(); }  // results are written by the takt that ran them
@@ -77,6 +81,8 @@ const json::Record& describe(json::Type<HistogramBucket>) {
 
 const json::Record& describe(json::Type<RequirementResult>) {
   static constexpr json::Output outputs[] = {
+      json::output_if_any<&RequirementResult::name>("name", "The name that the scenario gives it.",
+                                                    "where it gives one"),
       json::output<&RequirementResult::text>("text", "What was asked."),
       json::output<&verdict_of>("verdict", "`pass`, `fail` or `undecided`."),
       json::output<&RequirementResult::measured>("measured_ps", "What was found; null where it is no time."),

@@ -131,7 +131,7 @@ class Mistaken(CliTest):
         status, out, err = takt("run", shipped(), "--sed", "4")
         self.assertEqual((status, out), (2, ""))
         self.assertIn('takt: run does not take "--sed" (did you mean "--seed"?)\n', err)
-        self.assertIn('takt: run does not take "again"\n', takt("run", shipped(), "again")[2])
+        self.assertIn('takt: check does not take "again"\n', takt("check", shipped(), "again")[2])
 
     def test_files_for_other_commands_are_recognised(self):
         study = SCENARIOS / "studies" / "slaves-hops-cycle.json"

@@ -28,8 +28,10 @@ INSTANCE = "plant.problem.json"   # setUp() makes it
 COMMANDS = [
     (["run", "long.json"], "--out", "folder", True),
     (["run", "long.json"], "--report", "file", True),
+    (["run", "long.json"], "--junit", "file", True),
     (["verify", "long.json", "--budget", "1000000"], "--out", "folder", True),
     (["verify", "long.json", "--budget", "1000000"], "--report", "file", True),
+    (["verify", "long.json", "--budget", "1000000"], "--junit", "file", True),
     (["explore", "--slaves", "4", "--calls", "4", "--faults", "restart,timeout,loss", "--quiet"], "--out", "folder", True),
     (["study", "study.json", "--quiet"], "--out", "file", False),
     (["study", "shrink", "study.json", "0"], "--out", "file", False),
@@ -162,7 +164,7 @@ class Unwritable(unittest.TestCase):
         def walk(command, path):
             for option in command.get("options", []):
                 names = option["name"] if isinstance(option.get("name"), str) else ",".join(option.get("names", []))
-                if re.search(r"--(out|report|certificate|plant|transition|keep)\b", names) or (path[-2:] == ["study", "merge"] and names == "OUT"):
+                if re.search(r"--(out|report|junit|certificate|plant|transition|keep)\b", names) or (path[-2:] == ["study", "merge"] and names == "OUT"):
                     told.add((" ".join(path), re.search(r"--\w+|OUT", names).group()))
             for sub in command.get("commands", []):
                 walk(sub, path + [sub["name"]])

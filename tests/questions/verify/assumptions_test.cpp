@@ -44,6 +44,86 @@ std::unique_ptr<scenario::Resolved> small_network(const std::string& more, const
   return resolved;
 }
 
+/// Two hosts with gPTP behind a switch; `require` beside a latency that counts from 5 s on.
+std::unique_ptr<scenario::Resolved> with_gptp(const std::string& require, const std::string& more = {}) {
+  json::Diagnostics diagnostics;
+  auto resolved = scenario::load_text(R"({"name": "t", "duration": "6s",
+    "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}, "sw": {"kind": "switch"}},
+      "links": [{"ends": ["a", "sw"]}, {"ends": ["sw", "b"]}]},
+    "clocks": {"all": {"offset": {"from": "-10ppm", "to": "10ppm"}}, "gptp": {}},
+    "streams": [{"name": "s", "from": "a", "to": "b", "payload": "100B", "pcp": 6, "every": "50ms"}],
+    "require": [{"stream": "s", "latency": "1ms", "after": "5s"})" +
+                                          require + "]" + more + "}",
+                                      "test", {}, diagnostics);
+  EXPECT_TRUE(resolved) << diagnostics.to_text();
+  return resolved;
+}
+
+// What a data sheet promises is a condition, and the verdict says so.
+TEST(Given, WhatRestsOnAPromisePassesOnItsCondition) {
+  const auto asked = with_gptp(R"(, {"sync": "10us", "after": "5s"})");
+  EXPECT_EQ(verify(*asked, small()).lines[0].verdict, Conclusion::undecided);
+  const auto given = with_gptp(R"(, {"sync": "10us", "given": true, "after": "5s"})");
+  const Verification found = verify(*given, small());
+  ASSERT_FALSE(found.contradiction) << found.contradiction->text;
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::pass) << found.lines[0].reason;
+  EXPECT_EQ(found.lines[1].verdict, Conclusion::given) << found.lines[1].reason;
+  const std::string promise =
+      "if clocks are within 10us of the grandmaster from 5s on and what was sent before 5s has left the network";
+  EXPECT_EQ(found.verdict_text(), "pass, " + promise);
+  const std::string page = text_report("t", found, {"", ""});
+  EXPECT_NE(page.find("  pass, " + promise + "  stream s latency at most 1ms after 5s\n"), std::string::npos) << page;
+  EXPECT_NE(page.find("which only the plant can keep:\n"), std::string::npos) << page;
+  EXPECT_NE(page.find("  - clocks are within 10us of the grandmaster from 5s on\n"), std::string::npos) << page;
+  EXPECT_NE(page.find("1 of 1 requirements proved, 1 given"), std::string::npos) << page;
+  EXPECT_NE(json_report("t", found, {"", ""}).find("\"if\""), std::string::npos);
+}
+
+// No clock keeps within 1 ps: the runs show more.
+TEST(Given, APromiseThatARunContradictsIsRefuted) {
+  const Verification found = verify(*with_gptp(R"(, {"sync": "1ps", "given": true, "after": "5s"})"), small());
+  ASSERT_FALSE(found.contradiction) << found.contradiction->text;
+  EXPECT_EQ(found.lines[1].verdict, Conclusion::refuted);
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::undecided);
+  EXPECT_EQ(found.ledger[Assumption::clock_difference].standing, Standing::violated);
+  EXPECT_NE(found.lines[0].reason.find("which is refuted"), std::string::npos) << found.lines[0].reason;
+}
+
+// From the start on nothing was sent before.
+TEST(Given, OfDifferencesAndFromTheStart) {
+  const auto resolved = with_gptp(R"(, {"clocks": "*", "within": "1s", "given": true})");
+  const Verification found = verify(*resolved, small());
+  EXPECT_EQ(found.lines[0].provided, "clocks are within 1s of each other");
+  EXPECT_EQ(found.ledger[Assumption::drained].standing, Standing::discharged);
+}
+
+// A gate that is stuck until later is no promise of the data sheet.
+TEST(Given, WhatElseMustHoldStaysOpen) {
+  const auto resolved = with_gptp(
+      R"(, {"sync": "10us", "given": true, "after": "4s"})",
+      R"(, "faults": [{"kind": "stuck-gate", "node": "sw", "class": 6, "state": "closed", "at": "100ms", "for": "4400ms"}])");
+  const Verification found = verify(*resolved, small());
+  EXPECT_EQ(found.lines[0].verdict, Conclusion::undecided);
+  EXPECT_EQ(found.ledger[Assumption::drained].standing, Standing::open);
+}
+
+TEST(Given, MistakesAreDiagnostics) {
+  const auto refused = [](const std::string& clocks, const std::string& require) {
+    json::Diagnostics diagnostics;
+    EXPECT_FALSE(scenario::load_text(
+        R"({"name": "t", "duration": "1s", "network": {"nodes": {"a": {"kind": "host"}, "b": {"kind": "host"}}, "links": [{"ends": ["a", "b"]}]},
+      "clocks": {"all": {"offset": "10ppm"})" +
+            clocks + R"(}, "require": [)" + require + "]}",
+        "test", {}, diagnostics));
+    return diagnostics.to_text();
+  };
+  EXPECT_NE(refused(R"(, "gptp": {})", R"({"sync": "1us", "node": "a", "given": true})").find("a promise of one clock"),
+            std::string::npos);
+  EXPECT_NE(refused("", R"({"clocks": "*", "within": "1us", "given": true})")
+                .find("a promise of clocks that nothing holds together"),
+            std::string::npos);
+}
+
 // The shortest way is 23.184 us; the other way round the ring, which frames take from 120 ms on, is two switches
 // longer. A bound of the first alone would be 33 us.
 TEST(Assumptions, BoundsCoverWaysThatReroutingLays) {

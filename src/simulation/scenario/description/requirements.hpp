@@ -64,6 +64,7 @@ struct Requirement {
   ~Requirement();
 
   json::Source where;
+  std::optional<std::string> name = {};  ///< how plans and reports call it: "REQ-12"
   std::optional<Reaction> reaction;
   std::optional<std::string> program;
   std::optional<handshake::Cause> cause = {};
@@ -74,7 +75,13 @@ struct Requirement {
   std::optional<DurationLimit> jitter;
   std::optional<std::uint64_t> dropped;
   std::optional<std::uint64_t> delivered;
+  std::optional<std::uint64_t> lost_in_a_row = {};
+  std::optional<std::uint64_t> late_in_a_row = {};
+  std::optional<std::uint64_t> met = {};  ///< of any `of` one after another
+  std::optional<std::uint64_t> of = {};
+  std::optional<Duration> deadline = {};  ///< what takes longer is late
   std::optional<Duration> sync;
+  bool given = false;  ///< what a data sheet promises; nothing proves it
   std::optional<std::string> node;
   std::optional<Names> clocks = {};  ///< "*": all nodes
   std::optional<std::string> application = {};

@@ -70,6 +70,9 @@ const json::Enumeration& describe(json::Type<Reaction>) {
 
 const json::Object& describe(json::Type<Requirement>) {
   static constexpr json::Field fields[] = {
+      optional<&Requirement::name>("name",
+                                   "How plans and reports call it, such as REQ-12; no other requirement is called so.",
+                                   {.min_length = 1, .max_length = 100}),
       optional<&Requirement::reaction>(
           "reaction", "Every such reaction ends within the time given by within, and there is at least one."),
       optional<&Requirement::program>("program", "Only of this program."),
@@ -91,6 +94,18 @@ const json::Object& describe(json::Type<Requirement>) {
           "dropped",
           "Most frames that may be lost. Of a redundant stream a frame is lost if none of its copies arrives."),
       optional<&Requirement::delivered>("delivered", "Fewest frames that must be delivered."),
+      optional<&Requirement::lost_in_a_row>("lost_in_a_row", "Most frames that may be lost one after another."),
+      optional<&Requirement::late_in_a_row>(
+          "late_in_a_row",
+          "Most frames or reactions one after another that may be later than deadline, or never come."),
+      optional<&Requirement::met>(
+          "met",
+          "Of any so many one after another as of says, at least so many come: within deadline, if there is one."),
+      optional<&Requirement::of>("of", "Of how many one after another met is.", {.min = 1, .max = 1'000'000}),
+      optional<&Requirement::deadline>("deadline",
+                                       "What takes longer is late, for late_in_a_row and met: from production to "
+                                       "delivery of a frame, from cause to end of a reaction.",
+                                       {.max = longest}),
       optional<&Requirement::sync>("sync",
                                    "Greatest difference between a node's clock and that of the grandmaster, either "
                                    "way; all nodes with gPTP follow one grandmaster.",
@@ -98,6 +113,9 @@ const json::Object& describe(json::Type<Requirement>) {
       optional<&Requirement::node>("node", "Only of this node; of all with gPTP if absent."),
       optional<&Requirement::clocks>(
           "clocks", "Nodes, any two of whose clocks differ by at most within, whomever they follow; \"*\": all nodes."),
+      optional<&Requirement::given>("given",
+                                    "With sync or clocks: a data sheet promises it. What rests on it is proved on that "
+                                    "condition; a run that shows more refutes it."),
       optional<&Requirement::application>("application", "The application or gateway that is meant."),
       optional<&Requirement::thread>("thread", "One of its threads; each of them that the limit concerns if absent."),
       optional<&Requirement::success>("success",

@@ -50,12 +50,31 @@ bool limits_losses(const RequiredFigure& required, const std::string& stream) {
   if (steps.size() < 3 || steps[0] != "streams" || (steps[1] != stream && steps[1] != "*")) return false;
   // Of all streams together, much of one may make up for little of another.
   const bool is_of_each = steps[1] != "*" || take == Take::min;
+  if (steps[2] == "misses") return true;
   if (steps[2] == "delivered") return is_of_each && required.limit.relation != Relation::at_most;
   if (!bounds_above || take == Take::min || take == Take::mean || take == Take::count) return false;
   return steps[2] == "lost" || (steps[2] == "dropped" && steps.size() == 4 && steps[3] == "*");
 }
 
 }  // namespace
+
+std::string invariants_text(const std::string& program, bool violations_are_allowed) {
+  return "program " + program + " keeps S1 to S5" + (violations_are_allowed ? " (reported only)" : "");
+}
+
+std::vector<RequirementLine> requirement_lines(const Resolved& resolved) {
+  std::vector<RequirementLine> lines;
+  for (const RequiredFigure& required : resolved.requirements) lines.push_back({required.name, required.text});
+  for (const ResolvedProgram& program : resolved.programs)
+    lines.push_back({"", invariants_text(program.name, program.description->violations == Violations::reported)});
+  return lines;
+}
+
+std::string misses_name(const RequiredFigure& required) {
+  using results::RequirementKind;
+  if (required.kind == RequirementKind::met) return "met of any " + std::to_string(required.of);
+  return required.kind == RequirementKind::lost_in_a_row ? "lost in a row" : "late in a row";
+}
 
 std::optional<AskedReaction> reaction_of(const Figure& figure) {
   const std::vector<std::string>& steps = figure.steps;

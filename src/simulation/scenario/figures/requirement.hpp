@@ -29,13 +29,30 @@ struct RequiredFigure {
   std::optional<Duration> longest = {};   ///< the limit of a time
   std::optional<Duration> shortest = {};  ///< of one that must be equal to something
   Duration from = {};                     ///< what begins then or later counts; since the start
-  std::string name =
-      {};  ///< of the figure as the file says it: "reaction.start.max", "/streams/*/latency_ps/max (mean)"
-  std::string text = {};  ///< "stream camera latency at most 7ms"
+  std::string name = {};                  ///< that the file gives it: "REQ-12"; may be empty
+  std::string figure_name = {};  ///< as the file says it: "reaction.start.max", "/streams/*/latency_ps/max (mean)"
+  std::string text = {};         ///< "stream camera latency at most 7ms after 1s"
+  bool given = false;            ///< a data sheet promises it
+  std::optional<Duration> deadline =
+      {};                 ///< of limits on how many are late: what takes longer; else only what is lost counts
+  std::uint64_t of = 0;   ///< of how many one after another so many must be met
   bool has_unit = false;  ///< the file says in which unit a time is reported
   std::size_t entry = 0;  ///< of scenario.require: which asks for it
   std::size_t part = 0;   ///< of that entry, which may ask for several
 };
+
+/// What reports say of a requirement, or of a Program's invariants.
+struct RequirementLine {
+  std::string name;  ///< may be empty
+  std::string text;
+};
+/// All lines of a report, in its order, before anything has run.
+std::vector<RequirementLine> requirement_lines(const Resolved& resolved);
+/// "program line keeps S1 to S5".
+std::string invariants_text(const std::string& program, bool violations_are_allowed);
+
+/// "late in a row", "met of any 10": the figure of a limit on misses one after another.
+std::string misses_name(const RequiredFigure& required);
 
 /// The reactions whose durations a figure is taken of.
 struct AskedReaction {

@@ -67,6 +67,7 @@ class Requirements {
     made.figure.steps = std::move(steps);
     made.from = asked_->after.value_or(r_.scenario.warm_up);
     made.text = std::move(text);
+    made.name = asked_->name.value_or("");
     return made;
   }
   void add_number(RequirementKind kind, const std::string& subject, std::vector<std::string> steps, Relation relation,
@@ -83,6 +84,13 @@ class Requirements {
     return made;
   }
 
+  /// Reports and --only call a requirement by its name, so each has its own.
+  void check_name() {
+    if (!asked_->name || diagnostics_.is_refused(at("name"))) return;
+    if (!names_.insert(*asked_->name).second)
+      error("name", "a name twice", {json::quote(*asked_->name), "a name that no other requirement has"});
+  }
+
   void reaction() {
     if (r_.scenario.programs.empty())
       diagnostics_.error_unless(may_be_unread_program(r_.scenario, diagnostics_), at("reaction"),
@@ -91,17 +99,61 @@ class Requirements {
     if (asked_->within && !asked_->within->time)
       error("within", "a time without a unit", {"a number", "a duration such as \"7ms\""});
     check_cause();
-    if (!asked_->within) return;
+    check_misses();
     const std::string kind(spelling(*asked_->reaction));
     const std::string cause(asked_->cause ? spelling(*asked_->cause) : "");
-    RequiredFigure& made = add_time(
-        RequirementKind::reaction, asked_->program.value_or(""),
-        {"programs", asked_->program.value_or("*"), asked_->tree ? "tree_reactions" : "reactions", "*", "duration_ps"},
-        *asked_->within,
-        "reaction " + kind + (asked_->cause ? " because of a " + cause : "") + (asked_->tree ? " of the tree" : "") +
-            (asked_->program ? " of " + *asked_->program : "") + " within " + json::to_text(Duration(*asked_->within)));
-    made.figure.only = {{"kind", json::Node::of_string(kind)}, {"superseded", json::Node::of_bool(false)}};
-    if (asked_->cause) made.figure.only.emplace_back("cause", json::Node::of_string(cause));
+    const std::string text = "reaction " + kind + (asked_->cause ? " because of a " + cause : "") +
+                             (asked_->tree ? " of the tree" : "") + (asked_->program ? " of " + *asked_->program : "");
+    const std::vector<std::string> steps = {"programs", asked_->program.value_or("*"),
+                                            asked_->tree ? "tree_reactions" : "reactions", "*", "duration_ps"};
+    const auto of_kind = [&](RequiredFigure& made) {
+      made.figure.only = {{"kind", json::Node::of_string(kind)}, {"superseded", json::Node::of_bool(false)}};
+      if (asked_->cause) made.figure.only.emplace_back("cause", json::Node::of_string(cause));
+    };
+    if (asked_->within)
+      of_kind(add_time(RequirementKind::reaction, asked_->program.value_or(""), steps, *asked_->within,
+                       text + " within " + json::to_text(Duration(*asked_->within))));
+    add_misses(asked_->program.value_or(""), steps, text, of_kind);
+  }
+
+  /// Which keys of limits on misses go together.
+  void check_misses() {
+    const bool asks_late = asked_->late_in_a_row || (asked_->met && asked_->reaction);
+    if (asks_late && !asked_->deadline)
+      error(asked_->late_in_a_row ? "late_in_a_row" : "met", "nothing is late without a deadline",
+            {"no \"deadline\"", "\"deadline\" beside it"});
+    if (asked_->deadline && !asked_->late_in_a_row && !asked_->met)
+      error("deadline", "does not belong to this requirement",
+            {"\"deadline\" alone", "\"late_in_a_row\", or \"met\" with \"of\", beside it"});
+    if (asked_->met.has_value() != asked_->of.has_value())
+      error(asked_->met ? "met" : "of", "half of a limit",
+            {asked_->met ? "\"met\" without \"of\"" : "\"of\" without \"met\"", "both"});
+    else if (asked_->met && *asked_->met > *asked_->of)
+      error("met", "more than there are",
+            {std::to_string(*asked_->met) + " of " + std::to_string(*asked_->of), "at most as many as \"of\""});
+  }
+
+  /// Limits on how many are missed one after another. `finish` sets what else the figures have.
+  template <class Finish>
+  void add_misses(const std::string& subject, const std::vector<std::string>& steps, const std::string& text,
+                  Finish&& finish) {
+    const std::string within = asked_->deadline ? json::to_text(*asked_->deadline) : "";
+    const auto add_one = [&](RequirementKind kind, Relation relation, std::uint64_t limit, std::string words) {
+      add_number(kind, subject, steps, relation, static_cast<double>(limit), text + std::move(words));
+      made_.back().deadline = kind == RequirementKind::lost_in_a_row ? std::nullopt : asked_->deadline;
+      made_.back().of = kind == RequirementKind::met ? *asked_->of : 0;
+      finish(made_.back());
+    };
+    if (asked_->lost_in_a_row)
+      add_one(RequirementKind::lost_in_a_row, Relation::at_most, *asked_->lost_in_a_row,
+              fmt::format(" loses at most {} in a row", *asked_->lost_in_a_row));
+    if (asked_->late_in_a_row && asked_->deadline)
+      add_one(RequirementKind::late_in_a_row, Relation::at_most, *asked_->late_in_a_row,
+              fmt::format(" later than {} at most {} times in a row", within, *asked_->late_in_a_row));
+    if (asked_->met && asked_->of && (asked_->deadline || asked_->stream))
+      add_one(RequirementKind::met, Relation::at_least, *asked_->met,
+              fmt::format(" {} at least {} times of any {}", asked_->deadline ? "within " + within : "comes",
+                          *asked_->met, *asked_->of));
   }
 
   /// A cause that cannot be: a limit that nothing can ever fail is no requirement.
@@ -142,6 +194,8 @@ class Requirements {
       add_number(RequirementKind::dropped, name, {"streams", name, "lost"}, Relation::at_most,
                  static_cast<double>(*asked_->dropped),
                  fmt::format("stream {} drops at most {}", name, *asked_->dropped));
+    check_misses();
+    add_misses(name, {"streams", name, "misses"}, "stream " + name, [](RequiredFigure&) {});
     if (asked_->delivered)
       add_number(RequirementKind::delivered, name, {"streams", name, "delivered"}, Relation::at_least,
                  static_cast<double>(*asked_->delivered),
@@ -159,6 +213,10 @@ class Requirements {
     made.text =
         fmt::format("clock{} within {} of the grandmaster after {}", asked_->node ? " of " + *asked_->node : "s",
                     json::to_text(*asked_->sync), json::to_text(made.from));
+    if (asked_->given && asked_->node)
+      error("given", "a promise of one clock",
+            {"\"given\" beside \"node\"", "a promise of all nodes with gPTP: without \"node\""});
+    give(made);
   }
 
   void clocks() {
@@ -178,9 +236,18 @@ class Requirements {
       error("clocks", "a difference of one clock", {json::quote(clocks.names.front()), "two nodes or more, or \"*\""});
     if (!asked_->within) return;
     const std::string name = clock_group_name(clocks);
-    add_time(RequirementKind::clocks, name, {"clock_differences", name, "greatest_ps"}, *asked_->within,
-             fmt::format("{} within {} of each other", are_all ? "all clocks" : "clocks of " + name,
-                         json::to_text(Duration(*asked_->within))));
+    give(add_time(RequirementKind::clocks, name, {"clock_differences", name, "greatest_ps"}, *asked_->within,
+                  fmt::format("{} within {} of each other", are_all ? "all clocks" : "clocks of " + name,
+                              json::to_text(Duration(*asked_->within)))));
+    if (asked_->given && !r_.scenario.clocks.gptp)
+      diagnostics_.error_unless(is_refused("clocks"), at("given"), "a promise of clocks that nothing holds together",
+                                {"no \"gptp\" in \"clocks\"", "\"gptp\""});
+  }
+
+  /// What a data sheet promises of clocks.
+  void give(RequiredFigure& made) const {
+    made.given = asked_->given;
+    if (asked_->given) made.text += " (given)";
   }
 
   void application() {
@@ -250,8 +317,8 @@ class Requirements {
     RequiredFigure& made = add(RequirementKind::figure, "", {}, "");
     made.figure = *figure;
     made.limit = *limit;
-    made.name = name_of(*asked_);
-    made.text = fmt::format("figure {} {} {}", made.name, scenario::text_of(limit->relation), limit->text);
+    made.figure_name = name_of(*asked_);
+    made.text = fmt::format("figure {} {} {}", made.figure_name, scenario::text_of(limit->relation), limit->text);
     made.has_unit = asked_->unit.has_value();
     const bool is_greatest = limit->is_upper() && figure->take == Take::max;
     if (const std::optional<std::string> stream = latency_of(*figure)) {
@@ -327,6 +394,7 @@ class Requirements {
   json::Diagnostics& diagnostics_;
   StreamNames streams_;
   const Requirement* asked_ = nullptr;
+  std::set<std::string> names_;
 };
 
 /// How scenario files say what is required: by the key that says what it is about, one of those that limit a figure of
@@ -341,10 +409,16 @@ struct Requirements::Spelling {
 
 const std::vector<Requirements::Spelling>& Requirements::spellings() {
   static const std::vector<Spelling> all = {
-      {"reaction", {"within"}, {"program", "cause", "tree"}, &Requirements::reaction},
-      {"stream", {"latency", "jitter", "dropped", "delivered"}, {}, &Requirements::stream},
-      {"sync", {}, {"node"}, &Requirements::sync},
-      {"clocks", {"within"}, {}, &Requirements::clocks},
+      {"reaction",
+       {"within", "late_in_a_row", "met"},
+       {"program", "cause", "tree", "deadline", "of"},
+       &Requirements::reaction},
+      {"stream",
+       {"latency", "jitter", "dropped", "delivered", "lost_in_a_row", "late_in_a_row", "met"},
+       {"deadline", "of"},
+       &Requirements::stream},
+      {"sync", {}, {"node", "given"}, &Requirements::sync},
+      {"clocks", {"within"}, {"given"}, &Requirements::clocks},
       {"application", {"success", "buffered"}, {"thread"}, &Requirements::application},
       {"signal", {"irregular"}, {}, &Requirements::signal},
       {"figure", {"at_most", "at_least", "equal"}, {"only", "take", "unit", "within"}, &Requirements::figure},
@@ -374,7 +448,12 @@ void Requirements::translate(const Requirement& requirement) {
       std::ranges::find_if(spellings(), [&](const Spelling& each) { return said.find(each.subject) != nullptr; });
   if (spelling == spellings().end()) return;
   check_keys(*spelling, said);
+  check_name();
+  const std::size_t before = made_.size();
   (this->*spelling->translate)();
+  for (std::size_t i = before; i < made_.size(); ++i)
+    if (made_[i].from > Duration() && made_[i].kind != RequirementKind::sync)
+      made_[i].text += " after " + json::to_text(made_[i].from);
 }
 
 }  // namespace

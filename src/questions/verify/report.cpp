@@ -50,6 +50,13 @@ std::string slack_text(const Line& line) {
   return out + "\n";
 }
 
+/// "; not proved any more: stream camera latency at most 1ms".
+std::string cost_text(const Remedy& remedy) {
+  std::string text;
+  for (const std::string& each : remedy.breaks) text += (text.empty() ? "; not proved any more: " : ", ") + each;
+  return text;
+}
+
 /// What took most of the worst run, and what would help.
 std::string help_text(const Line& line) {
   std::string out;
@@ -58,8 +65,8 @@ std::string help_text(const Line& line) {
                        figure(part.takes), part.where, part.what);
   if (!out.empty()) out += "\n";
   for (const Remedy& remedy : line.remedies)
-    out += fmt::format("             would be proved with: {} {} (bound {})\n", remedy.what, remedy.value,
-                       figure(remedy.bound));
+    out += fmt::format("             would be proved with: {} {} (bound {}){}\n", remedy.what, remedy.value,
+                       figure(remedy.bound), cost_text(remedy));
   return out;
 }
 

@@ -74,6 +74,8 @@ const json::Record& describe(json::Type<Remedy>) {
       json::output<&Remedy::what>("what", "What would be another: \"payload of camera at most\"."),
       json::output<&Remedy::value>("value", "The value that is nearest to the present one."),
       json::output<&Remedy::bound>("bound_ps", "What no run exceeds then."),
+      json::output_if_any<&Remedy::breaks>("breaks", "Requirements that are proved now, and not then.",
+                                           "if there are some"),
   };
   static constexpr json::Record record{"remedy", "A change with which the requirement would be proved.", outputs};
   return record;

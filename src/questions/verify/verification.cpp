@@ -136,8 +136,8 @@ void add_slack(Verification& result, const analysis::Bounds& bounds, Budget& bud
   }
 }
 
-void add_help(Verification& result, const scenario::Resolved& resolved, unsigned seeds, Budget& budget,
-              std::uint64_t cost_of_run) {
+void add_help(Verification& result, const scenario::Resolved& resolved, const analysis::Bounds& bounds, unsigned seeds,
+              Budget& budget, std::uint64_t cost_of_run) {
   if (result.contradiction || result.partial) return;
   for (Line& line : result.lines) {
     if (line.verdict != Conclusion::refuted && line.verdict != Conclusion::undecided) continue;
@@ -146,7 +146,10 @@ void add_help(Verification& result, const scenario::Resolved& resolved, unsigned
       line.weighty =
           weightiest_parts(line.longest.scenario(), line.requirement, *line.adversarial, budget.interrupted());
     }
-    line.remedies = remedies_for(resolved, line.requirement, seeds, cost_of_run, budget);
+    RemedyQuestion question{line.requirement, bounds, {}, seeds, cost_of_run};
+    for (const FoundRun& run : {line.worst, line.longest})
+      if (run) question.worst.push_back(run);
+    line.remedies = remedies_for(resolved, question, budget);
   }
 }
 
@@ -205,7 +208,7 @@ Verification verify(const scenario::Resolved& resolved, const Options& options) 
   const std::vector<Proof> proofs = prove(resolved, bounds, requirements, proof);
   Verification result = conclude(std::move(found), proofs, bounds.ledger);
   add_slack(result, bounds, budget, cost_of_run);
-  if (options.helps) add_help(result, resolved, options.search.seeds, budget, cost_of_run);
+  if (options.helps) add_help(result, resolved, bounds, options.search.seeds, budget, cost_of_run);
   result.partial = result.partial || budget.is_interrupted();
   return result;
 }

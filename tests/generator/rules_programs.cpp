@@ -133,6 +133,26 @@ Made paths(Maker& m, const Scope& s) {
   return list({std::move(way)});
 }
 
+/// The master, on which calls are made that say nobody else, and some others.
+Made callers(Maker& m, const Scope& s) {
+  const Scope& program = *s.around("program");
+  Node made = Node::array();
+  const std::vector<std::string> all = members_of(*program.made);
+  const std::string master = program.text("master");
+  made.items.push_back(text(master));
+  for (const std::string& each : m.draw.some(all, m.draw.below(all.size())))
+    if (std::ranges::none_of(made.items, [&](const Node& item) { return item.text == each; }))
+      made.items.push_back(text(each));
+  return made;
+}
+/// The robust handshake starts at the master.
+Made starters(Maker& m, const Scope& s) {
+  if (s.around("program")->text("variant") == "paper") return callers(m, s);
+  Node made = Node::array();
+  made.items.push_back(text(s.around("program")->text("master")));
+  return made;
+}
+
 Made process_data(Maker& m, const Scope& s) {
   return m.objects("process_data", m.wants(Feature::replies) ? 2 : m.draw.between(1, 3), s);
 }
@@ -190,6 +210,9 @@ Made call(Maker& m, const Scope& s) {
 Made called(Maker& m, const Scope& s) {
   if (s.name != "call") return std::nullopt;
   const Node& program = *program_of(m, s.number);
+  const Node* const callers = program.find("callers");
+  if (const Node* const named = callers == nullptr ? nullptr : callers->find(s.text("call")))
+    return text(m.draw.any(named->items).text);
   return text(s.text("call") == "Start" && program.find("variant")->text != "paper" ? program.find("master")->text
                                                                                     : m.draw.any(members_of(program)));
 }
@@ -280,6 +303,12 @@ std::span<const Rule> program_rules() {
        .make = [](Maker& m, const Scope& s) -> Made {
          return text(is_scheduled(m, s) || m.draw.one_in(2) ? "cyclic" : "on-change");
        }},
+      {.key = "program.callers", .percent = 20},
+      {.key = "callers.Start", .percent = 40, .make = starters},
+      {.key = "callers.Suspend", .percent = 40, .make = callers},
+      {.key = "callers.Resume", .percent = 40, .make = callers},
+      {.key = "callers.Halt", .percent = 40, .make = callers},
+      {.key = "callers.Reset", .percent = 40, .make = callers},
       {.key = "program.security", .feature = Feature::security, .percent = 70},
       {.key = "program_security.mode", .percent = 60},
       {.key = "program_security.policy", .percent = 60},

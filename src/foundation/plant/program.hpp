@@ -72,6 +72,17 @@ struct Reply {
   bool operator==(const Reply&) const = default;
 };
 
+/// On which participants each method is called; absent: on any of them.
+struct Callers {
+  json::Source where;
+  std::optional<std::vector<std::string>> start = {};
+  std::optional<std::vector<std::string>> suspend = {};
+  std::optional<std::vector<std::string>> resume = {};
+  std::optional<std::vector<std::string>> halt = {};
+  std::optional<std::vector<std::string>> reset = {};
+  bool operator==(const Callers&) const = default;
+};
+
 struct Program {
   Program();
   Program(const Program&);
@@ -107,6 +118,7 @@ struct Program {
   std::vector<Reply> replies = {};
   std::optional<std::uint32_t> redundancy = {};      ///< copies of each message (IEEE 802.1CB)
   std::vector<std::vector<std::string>> paths = {};  ///< of messages between two members, in either direction
+  Callers callers = {};                              ///< what the plant promises of calls
   std::optional<ProgramSecurity> security = {};      ///< in a scenario; the octets are those of real nodes
   bool operator==(const Program&) const = default;
 };
@@ -115,6 +127,9 @@ struct Program {
 inline std::uint32_t octets_of_security(const Program& program) {
   return program.security ? static_cast<std::uint32_t>(security::added_octets(program.security->mode)) : 0;
 }
+
+/// On whom that method is called; nothing: on anybody.
+const std::optional<std::vector<std::string>>& callers_of(const Program& program, Method method);
 
 /// When in its cycle a participant publishes.
 sim::Duration phase_of(const Program& program, std::string_view participant);
@@ -125,6 +140,7 @@ const json::Object& describe(json::Type<DataField>);
 const json::Object& describe(json::Type<ProcessData>);
 const json::Enumeration& describe(json::Type<Violations>);
 const json::Object& describe(json::Type<Reply>);
+const json::Object& describe(json::Type<Callers>);
 const json::Object& describe(json::Type<Program>);
 
 }  // namespace takt::plant

@@ -209,12 +209,32 @@ void check_program(const Program& program, json::Diagnostics& diagnostics) {
     check_roles(program, diagnostics);
 }
 
+namespace {
+
+/// Participants, each once. A run of the robust handshake begins at the master.
+void check_callers(const Program& program, const MayBeNode& may_be_node, json::Diagnostics& diagnostics) {
+  for (const program::MethodInfo& each : program::methods) {
+    const std::optional<std::vector<std::string>>& names = callers_of(program, each.method);
+    if (!names) continue;
+    std::set<std::string_view> seen;
+    for (std::size_t i = 0; i < names->size(); ++i) {
+      const json::Place place = program.callers.where.at(each.name, i);
+      if (!seen.insert((*names)[i]).second)
+        diagnostics.error(place, "a participant twice", {json::quote((*names)[i]), "each participant once"});
+      participant_of(program, (*names)[i], place, may_be_node, diagnostics);
+    }
+  }
+}
+
+}  // namespace
+
 void check_members(const Program& program, std::uint32_t most_octets, const MayBeNode& may_be_node,
                    json::Diagnostics& diagnostics) {
   check_nodes(program, diagnostics);
   if (program.roles.empty())
     for (const auto& phase : program.phases)
       participant_of(program, phase.first, program.where.at("phases"), may_be_node, diagnostics);
+  check_callers(program, may_be_node, diagnostics);
   std::set<std::string_view> names = {"state"};
   if (!program.roles.empty()) names.insert({"bindings", "announce"});
   const std::string taken =

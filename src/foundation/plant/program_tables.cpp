@@ -119,6 +119,27 @@ const json::Object& describe(json::Type<Reply>) {
   return table;
 }
 
+const json::Object& describe(json::Type<Callers>) {
+  static constexpr json::Field fields[] = {
+      optional<&Callers::start>("Start", "The participants on which Start is called.",
+                                {.min_items = 1, .max_items = 65}),
+      optional<&Callers::suspend>("Suspend", "Likewise of Suspend.", {.min_items = 1, .max_items = 65}),
+      optional<&Callers::resume>("Resume", "Likewise of Resume.", {.min_items = 1, .max_items = 65}),
+      optional<&Callers::halt>("Halt", "Likewise of Halt.", {.min_items = 1, .max_items = 65}),
+      optional<&Callers::reset>("Reset", "Likewise of Reset.", {.min_items = 1, .max_items = 65}),
+  };
+  static constexpr json::Object table = json::object<Callers>(
+      "callers", "On which participants methods are called; a method that is not here is called on any of them.",
+      fields);
+  return table;
+}
+
+const std::optional<std::vector<std::string>>& callers_of(const Program& program, Method method) {
+  constexpr std::optional<std::vector<std::string>> Callers::*all[] = {
+      &Callers::start, &Callers::suspend, &Callers::resume, &Callers::halt, &Callers::reset};
+  return program.callers.*all[program::index_of(method)];
+}
+
 const json::Object& describe(json::Type<Program>) {
   static constexpr json::Field fields[] = {
       required<&Program::name>("name", "Unique among streams and programs.", {.min_length = 1, .max_length = 200}),
@@ -176,6 +197,9 @@ const json::Object& describe(json::Type<Program>) {
       optional<&Program::security>("security",
                                    "Its messages are signed, or signed and encrypted; neither if absent. Of a real "
                                    "node: `security` of the node."),
+      optional<&Program::callers>("callers",
+                                  "On which participants each method is called. The plant promises it: the script "
+                                  "makes no other call, and no bound counts one."),
       optional<&Program::replies>("replies", "Process data that answers other process data at once.",
                                   {.max_items = 256}),
   };

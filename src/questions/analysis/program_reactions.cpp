@@ -22,6 +22,14 @@ constexpr std::array<Cause, 4> halting_causes = {Cause::crash, Cause::cut, Cause
 constexpr const char* no_bound_with_roles = "who has a role is settled while the Program runs";
 constexpr const char* paper_notices_nothing = "the handshake paper notices neither silence nor a restart";
 
+/// What is called for it.
+program::Method method_of(Reaction kind) {
+  using program::Method;
+  constexpr Method methods[] = {Method::Start, Method::Halt, Method::Suspend, Method::Resume,
+                                Method::Reset};  // as Reaction has them
+  return methods[static_cast<std::size_t>(kind)];
+}
+
 Spread spread_of(Reaction kind) { return kind == Reaction::suspend ? Spread::after_barriers : Spread::at_once; }
 
 /// One Program, and what its notifications rest on.
@@ -165,13 +173,34 @@ class ScenarioReactions {
     });
   }
 
-  /// The group with all that is nested in it.
-  ReactionGroup tree_of(std::size_t p) const {
+  /// The group with all that is nested in it. `of_calls`: at whom they may be made; of any cause if absent.
+  ReactionGroup tree_of(std::size_t p, std::optional<Reaction> of_calls = {}) const {
     ReactionGroup tree = groups_[p].group;
+    if (of_calls) tree.origins = callers_of(p, *of_calls);
     for (std::size_t inner = 0; inner < groups_.size(); ++inner)
       if (const auto& outer = r_.programs[inner].outer; outer && outer->program == p)
-        tree.inner.push_back({outer->participant, tree_of(inner)});
+        tree.inner.push_back({outer->participant, tree_of(inner, of_calls)});
     return tree;
+  }
+
+  /// By participant: on whom the Program says that the method is called; empty: it does not say.
+  std::vector<bool> callers_of(std::size_t p, Reaction kind) const {
+    const std::optional<std::vector<std::string>>& named =
+        plant::callers_of(*r_.programs[p].description, method_of(kind));
+    if (!named) return {};
+    std::vector<bool> callers;
+    for (const std::string& name : groups_[p].group.names)
+      callers.push_back(std::ranges::find(*named, name) != named->end());
+    return callers;
+  }
+  /// The same for the group alone, to which a reaction may come from the group around it, or from one within.
+  std::vector<bool> origins_of(std::size_t p, Reaction kind) const {
+    std::vector<bool> origins = callers_of(p, kind);
+    if (origins.empty()) return origins;
+    if (r_.programs[p].outer) origins[0] = true;
+    for (const scenario::ResolvedProgram& inner : r_.programs)
+      if (inner.outer && inner.outer->program == p) origins[inner.outer->participant] = true;
+    return origins;
   }
   void rest_on_tree(std::size_t p, ReactionBound& made) const {
     made.assumptions.add(groups_[p].assumptions);
@@ -188,6 +217,12 @@ class ScenarioReactions {
     if (kind == Reaction::start) return add_start(std::move(made));
     made.assumptions = groups_[p].assumptions;
     made.reason = groups_[p].reason;
+    ReactionGroup group = groups_[p].group;
+    group.origins = origins_of(p, kind);
+    take(made, spread_bound(group), [&] { return spread_parts(group); });
+    if (kind != Reaction::halt || group.origins.empty()) return;
+    // Anybody may find that it cannot follow.
+    made.cause = Cause::mismatch;
     take(made, spread_bound(groups_[p].group), [&] { return spread_parts(groups_[p].group); });
   }
 
@@ -229,6 +264,10 @@ class ScenarioReactions {
       for (std::size_t inner = 0; inner < groups_.size(); ++inner)
         if (const auto& outer = r_.programs[inner].outer; outer && outer->program == groups[i]) groups.push_back(inner);
     return groups;
+  }
+
+  bool says_callers(std::size_t root, Reaction kind) const {
+    return std::ranges::any_of(groups_of_tree(root), [&](std::size_t p) { return !callers_of(p, kind).empty(); });
   }
 
   bool has_roles_below(std::size_t root) const {
@@ -281,12 +320,16 @@ class ScenarioReactions {
       }
       if (refuse(root, made)) continue;
       rest_on_tree(root, made);
-      take(made, spread_bound(whole, spread_of(kind)), [&] { return spread_parts(whole, spread_of(kind)); });
+      const ReactionGroup called = tree_of(root, kind);
+      take(made, spread_bound(called, spread_of(kind)), [&] { return spread_parts(called, spread_of(kind)); });
+      if (kind != Reaction::halt || !says_callers(root, kind)) continue;
+      made.cause = Cause::mismatch;
+      take(made, spread_bound(whole), [&] { return spread_parts(whole); });
     }
     for (const Cause cause : halting_causes) add_halt(root, cause, groups_of_tree(root), true);
   }
 
-  void take(ReactionBound& made, MaxPlus whole, const auto& parts) {
+  void take(ReactionBound made, MaxPlus whole, const auto& parts) {
     if (is_bounded(whole.ps())) {
       made.bound = Duration::from_ps(whole.ps());
       made.reason.clear();
@@ -294,7 +337,7 @@ class ScenarioReactions {
     } else if (made.reason.empty()) {
       made.reason = "a notification is unbounded";
     }
-    bounds_.reactions.push_back(std::move(made));
+    bounds_.reactions.push_back(made);
   }
 
   const scenario::Resolved& r_;

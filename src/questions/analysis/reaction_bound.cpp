@@ -37,6 +37,7 @@ struct Layout {
     Ps not_before = 0;  // after the call
   };
   std::vector<std::vector<Way>> heard_from{1};  // by participant
+  std::vector<bool> is_origin{false};           // likewise
   std::vector<std::string> names;
 };
 
@@ -46,11 +47,14 @@ void lay_out(const ReactionGroup& group, std::size_t master, Spread spread, Layo
   for (std::size_t s = 1; s < group.initialise.size(); ++s) {
     number.push_back(layout.heard_from.size());
     layout.heard_from.emplace_back();
+    layout.is_origin.push_back(false);
     if (!group.names.empty()) layout.names.push_back(group.names[s]);
   }
   const auto is_nested = [&](std::size_t p) {
     return std::any_of(group.inner.begin(), group.inner.end(), [&](const auto& inner) { return inner.slave == p; });
   };
+  for (std::size_t i = 0; i < number.size(); ++i)
+    if (group.origins.empty() || group.origins[i]) layout.is_origin[number[i]] = true;
   for (std::size_t i = 0; i < number.size(); ++i)
     for (std::size_t j = 0; j < number.size(); ++j) {
       if (i == j || !group.notify(i, j).happens()) continue;
@@ -123,6 +127,7 @@ std::vector<SpreadStep> slowest_spread(const ReactionGroup& group, Spread spread
   std::vector<SpreadStep> slowest;
   Ps latest = -1;
   for (std::size_t origin = 0; origin < n; ++origin) {
+    if (!layout.is_origin[origin]) continue;
     std::vector<Ps> at(n, unbounded_ps);
     std::vector<std::size_t> before(n, origin);
     at[origin] = 0;

@@ -20,6 +20,7 @@ struct ReactionGroup {
   std::vector<std::string> names = {};  ///< of the participants, for the parts of a bound
   MaxPlusMatrix notify{0, 0};
   std::vector<MaxPlus> initialise;
+  std::vector<bool> origins = {};  ///< by participant: at whom calls may be made; at any if empty
   /// Groups within: a slave that is master of another group.
   struct Inner;
   std::vector<Inner> inner;
@@ -55,8 +56,8 @@ struct SpreadStep {
 std::vector<SpreadStep> slowest_spread(const ReactionGroup& group, Spread spread = Spread::at_once);
 /// The same in words. Precondition: there are names.
 std::vector<ReactionPart> spread_parts(const ReactionGroup& group, Spread spread = Spread::at_once);
-/// From a call at any participant, of any of the groups, until the last of all has heard of it: halt, suspend, resume,
-/// reset.
+/// From a call at any of the origins, of any of the groups, until the last of all has heard of it: halt, suspend,
+/// resume, reset.
 MaxPlus spread_bound(const ReactionGroup& group, Spread spread = Spread::at_once);
 
 }  // namespace takt::analysis

@@ -14,6 +14,7 @@
 #include "plant/topic_check.hpp"
 #include "scenario/applications/resolve_applications.hpp"
 #include "scenario/figures/requirement.hpp"
+#include "scenario/gates/resolve_gates.hpp"
 #include "scenario/idle/idle.hpp"
 #include "scenario/resolve/clocks.hpp"
 #include "scenario/resolve/cpus.hpp"
@@ -21,7 +22,6 @@
 #include "scenario/resolve/egress.hpp"
 #include "scenario/resolve/faults.hpp"
 #include "scenario/resolve/gate_limits.hpp"
-#include "scenario/gates/resolve_gates.hpp"
 #include "scenario/resolve/ingress.hpp"
 #include "scenario/resolve/known_names.hpp"
 #include "scenario/resolve/nesting.hpp"
@@ -522,6 +522,14 @@ class Resolver {
         entry.on ? plant::participant_of(*program, *entry.on, entry.where.at("on"), may_be_node(), diagnostics_)
                  : std::optional<std::uint8_t>(0);
     if (!participant) return;
+    if (const auto& callers = plant::callers_of(*program, *entry.call);
+        callers && !diagnostics_.is_refused(entry.where.at("call"))) {
+      const std::string& on = entry.on ? *entry.on : program->master;
+      if (std::ranges::find(*callers, on) == callers->end())
+        diagnostics_.error(
+            entry.on ? entry.where.at("on") : entry.where.at("call"), "a call that the program's \"callers\" exclude",
+            {std::string(program::name_of(*entry.call)) + " on " + json::quote(on), "a participant that they name"});
+    }
     // In the paper's handshake all participants may be started from outside; `robust` begins a run at the master.
     if (diagnostics_.is_refused(entry.where.at("call"))) return;
     if (*entry.call == Method::Start && *participant != 0 && program->variant == Variant::robust) {

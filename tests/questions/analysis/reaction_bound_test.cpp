@@ -39,6 +39,66 @@ TEST(ReactionBound, StarByHand) {
   EXPECT_EQ(spread_bound(cell), MaxPlus(55));
 }
 
+// From the master 10 or 25; from the first slave 30 + 25; from the second 5 + 10.
+TEST(ReactionBound, OfCallsAtSomeParticipantsAlone) {
+  ReactionGroup cell = star({{10, 30}, {25, 5}}, 100);
+  cell.origins = {true, false, false};
+  EXPECT_EQ(spread_bound(cell), MaxPlus(25));
+  cell.origins = {false, false, true};
+  EXPECT_EQ(spread_bound(cell), MaxPlus(15));
+  cell.origins = {true, true, false};
+  EXPECT_EQ(spread_bound(cell), MaxPlus(55));
+}
+
+std::map<std::string, sim::Duration> bounds_with(const std::string& callers, const std::string& script) {
+  const std::string text =
+      R"({"name": "t", "duration": "1s", "network": {"generate": [{"topology": "line", "switches": 1, "hosts_per_switch": 3}]},
+  "programs": [{"name": "p", "master": "h1", "slaves": ["h2", "h3"], "cycle": "1ms"CALLERS}], "script": [{"at": "0ms", "program": "p", "call": "Start"}SCRIPT],
+  "require": [{"reaction": "suspend", "within": "1s"}, {"reaction": "halt", "within": "1s"}, {"reaction": "halt", "cause": "command", "within": "1s"},
+              {"reaction": "halt", "cause": "crash", "within": "1s"}, {"reaction": "halt", "cause": "mismatch", "within": "1s"}]})";
+  std::string made = text;
+  made.replace(made.find("CALLERS"), 7, callers);
+  made.replace(made.find("SCRIPT"), 6, script);
+  json::Diagnostics diagnostics;
+  const auto resolved = scenario::load_text(made, "t.json", {}, diagnostics);
+  std::map<std::string, sim::Duration> found;
+  if (!resolved) {
+    EXPECT_NE(diagnostics.to_text().find("a call that the program's \"callers\" exclude"), std::string::npos)
+        << diagnostics.to_text();
+    return found;
+  }
+  const Bounds bounds = bound(*resolved);
+  for (std::size_t i = 0; i < bounds.requirements.size(); ++i)
+    found[resolved->requirements[i].text] = bounds.requirements[i].duration.value_or(sim::Duration());
+  return found;
+}
+
+// One hop from the master instead of two; a halt for another reason than a call begins anywhere.
+TEST(ReactionBound, CallersOfAProgram) {
+  const auto any = bounds_with("", "");
+  const auto one = bounds_with(R"(, "callers": {"Suspend": ["h1"], "Halt": ["h1"]})", "");
+  const std::string suspend = "reaction suspend within 1s", halt = "reaction halt within 1s";
+  const std::string called = "reaction halt because of a command within 1s",
+                    crash = "reaction halt because of a crash within 1s";
+  const std::string mismatch = "reaction halt because of a mismatch within 1s";
+  EXPECT_LE(2 * one.at(suspend).ps(), any.at(suspend).ps());
+  EXPECT_LE(2 * one.at(called).ps(), any.at(called).ps());
+  EXPECT_EQ(one.at(halt), any.at(halt)) << "anybody may find that it cannot follow";
+  EXPECT_EQ(one.at(crash), any.at(crash));
+  EXPECT_EQ(one.at(mismatch), any.at(mismatch));
+  EXPECT_EQ(bounds_with(R"(, "callers": {"Suspend": ["h1", "h2", "h3"]})", "").at(suspend), any.at(suspend));
+}
+
+TEST(ReactionBound, TheScriptMakesNoOtherCall) {
+  const std::string callers = R"(, "callers": {"Suspend": ["h1"]})";
+  const auto suspend = [](const std::string& on) {
+    return R"(, {"at": "100ms", "program": "p", "call": "Suspend")" + on + "}";
+  };
+  EXPECT_TRUE(bounds_with(callers, suspend(R"(, "on": "h2")")).empty());
+  EXPECT_FALSE(bounds_with(callers, suspend(R"(, "on": "h1")")).empty());
+  EXPECT_FALSE(bounds_with(callers, suspend("")).empty());
+}
+
 TEST(ReactionBound, ASlowMasterInitialisesLonger) {
   ReactionGroup cell = star({{10, 10}}, 100);
   cell.initialise[0] = MaxPlus(500);

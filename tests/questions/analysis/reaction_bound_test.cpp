@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "scenario/figures/requirement.hpp"
 #include "scenario/resolve.hpp"
 #include "scenario/run/run.hpp"
 

@@ -237,6 +237,29 @@ auto Participant<MaxPeers>::renamed(std::span<const std::uint8_t> to) const -> P
 }
 
 template <std::size_t MaxPeers>
+auto Participant<MaxPeers>::part_of(std::size_t peer) const -> PeerPart {
+  TAKT_CHECK(peer < peer_count(), "only a peer is known");
+  return {peers_[peer], (ready_ >> peer & 1U) != 0, (running_ >> peer & 1U) != 0};
+}
+
+template <std::size_t MaxPeers>
+auto Participant<MaxPeers>::with_parts(std::span<const PeerPart> parts) const -> Participant {
+  TAKT_CHECK(!parts.empty() && parts.size() <= MaxPeers && (is_master() || parts.size() == 1),
+             "a participant has room for all its peers");
+  Participant result = *this;
+  if (is_master()) result.config_.slaves = static_cast<std::uint8_t>(parts.size());
+  result.peers_ = {};
+  result.ready_ = 0;
+  result.running_ = 0;
+  for (std::size_t peer = 0; peer < parts.size(); ++peer) {
+    result.peers_[peer] = parts[peer].peer;
+    result.ready_ |= PeerSet{parts[peer].ready} << peer;
+    result.running_ |= PeerSet{parts[peer].running} << peer;
+  }
+  return result;
+}
+
+template <std::size_t MaxPeers>
 bool Participant<MaxPeers>::has_heard_beyond(std::size_t peer, std::uint16_t sequence) const {
   const Peer& each = peers_[peer];
   return each.sequence_known && static_cast<std::int16_t>(static_cast<std::uint16_t>(sequence - each.sequence)) < 0;

@@ -114,14 +114,6 @@ class Participant {
     return {peers_[peer].incarnation, peers_[peer].run, peers_[peer].state, peers_[peer].heard};
   }
 
-  /// A word of the peer's incarnation with this sequence number would be ignored, because a later number was heard.
-  bool has_heard_beyond(std::size_t peer, std::uint16_t sequence) const;
-
-  bool operator==(const Participant&) const = default;
-  /// Equal values have equal hashes; the same on every machine.
-  std::uint64_t hash() const;
-
- private:
   /// What is remembered of the last accepted word of a peer.
   struct Peer {
     std::uint32_t incarnation = 0;
@@ -132,6 +124,26 @@ class Participant {
     bool sequence_known = false;  ///< false after silence: then any sequence number is the first
     bool operator==(const Peer&) const = default;
   };
+  /// All that a participant keeps of one peer.
+  struct PeerPart {
+    Peer peer;
+    bool ready = false;    ///< it counts as Ready in the run of the intent here
+    bool running = false;  ///< likewise
+    bool operator==(const PeerPart&) const = default;
+  };
+  PeerPart part_of(std::size_t peer) const;
+  /// The same participant in a group in which it has these peers and no others. A search for groups of any size keeps
+  /// what the master knows of a slave with that slave's own state, and puts both together for a step.
+  Participant with_parts(std::span<const PeerPart> parts) const;
+
+  /// A word of the peer's incarnation with this sequence number would be ignored, because a later number was heard.
+  bool has_heard_beyond(std::size_t peer, std::uint16_t sequence) const;
+
+  bool operator==(const Participant&) const = default;
+  /// Equal values have equal hashes; the same on every machine.
+  std::uint64_t hash() const;
+
+ private:
   enum class Freshness : std::uint8_t { stale, fresh, restarted };
 
   bool is_master() const { return config_.role == Role::master; }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sim/check.hpp"
@@ -35,6 +36,13 @@ class Interner {
       slots_[slot] = static_cast<std::uint32_t>(values_.size());
     }
     return slots_[slot] - 1;
+  }
+
+  /// The number of a value that was interned; nothing if it never was.
+  std::optional<std::uint32_t> number_of(const Value& value) const {
+    if (slots_.empty()) return std::nullopt;
+    const std::uint32_t slot = slots_[find(value)];
+    return slot == 0 ? std::nullopt : std::optional(slot - 1);
   }
 
   /// Appends a value that is never found by intern().

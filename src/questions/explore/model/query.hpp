@@ -27,6 +27,8 @@ struct FaultSet {
 };
 
 inline constexpr std::size_t most_slaves = 4;
+/// Of a star that is explored in parts (parts/parts_model.hpp), where slaves have no names.
+inline constexpr std::size_t most_equal_slaves = 12;
 inline constexpr std::uint32_t most_commands = 12;
 inline constexpr std::uint32_t most_faults = 7;
 inline constexpr std::uint64_t most_states = 0xFFFF'FFF0ULL;
@@ -51,7 +53,8 @@ inline constexpr std::size_t most_inner_candidates = 2;
 
 struct Query {
   handshake::Variant variant = handshake::Variant::robust;
-  std::uint8_t slaves = 1;  ///< 1 to most_slaves, with all-to-all subscription to most_slaves_all_to_all
+  std::uint8_t slaves =
+      1;  ///< 1 to most_slaves, in parts to most_equal_slaves, with all-to-all subscription to most_slaves_all_to_all
   handshake::Subscription subscription = handshake::Subscription::star;
   Network network = Network::registers;
   std::uint8_t capacity = 2;  ///< `channels`: messages in flight in each of them, 1 to most_capacity
@@ -89,6 +92,14 @@ struct Query {
   /// Explored by the model of groups in groups (tree_model.hpp): `robust`, star, registers, no delayed copies, slaves
   /// told apart.
   bool is_tree() const { return (nested() && !has_roles()) || joining; }
+  /// It can be explored in parts: a star of equal slaves on sampled registers, without a stranger.
+  bool can_have_parts() const {
+    return variant == handshake::Variant::robust && subscription == handshake::Subscription::star &&
+           network == Network::registers && !faults.contains(Fault::forge) && !has_recordings() && !has_roles() &&
+           !is_tree();
+  }
+  /// It is explored so.
+  bool has_parts() const { return slaves > most_slaves && can_have_parts(); }
   /// Somebody may fall silent, so that F1 says something.
   constexpr bool asks_for_silence() const {
     return joining || (fault_budget > 0 && (faults.contains(Fault::crash) || faults.contains(Fault::timeout)));

@@ -3,6 +3,7 @@
 // slaves, and with all-to-all subscription after them the pairs of different slaves.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +13,8 @@
 namespace takt::explore {
 
 inline constexpr std::size_t most_participants = most_slaves + 1;
-inline constexpr std::size_t most_channels = 12;
+inline constexpr std::size_t most_channels = 12;  ///< of a group whose slaves have names
+inline constexpr std::size_t most_wired = most_equal_slaves + 1;
 
 class Wiring {
  public:
@@ -45,8 +47,8 @@ class Wiring {
                       static_cast<std::uint8_t>(sender < receiver ? sender : sender - 1)};
   }
   std::size_t size_ = 0;
-  std::array<Ends, most_channels> ends_{};
-  std::array<std::array<std::uint8_t, most_participants>, most_participants> channel_{};
+  std::array<Ends, std::max(most_channels, 2 * most_equal_slaves)> ends_{};
+  std::array<std::array<std::uint8_t, most_wired>, most_wired> channel_{};
 };
 
 /// The participant that a peer index stands for.

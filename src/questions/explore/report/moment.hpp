@@ -34,8 +34,9 @@ struct Moment {
 };
 
 /// Whether that is what the participant remembers of this peer.
-inline bool is_remembered(const Participant& participant, std::size_t peer, const Heard& heard) {
-  const Participant::Known known = participant.known_of(peer);
+template <std::size_t MaxPeers>
+bool is_remembered(const handshake::Participant<MaxPeers>& participant, std::size_t peer, const Heard& heard) {
+  const typename handshake::Participant<MaxPeers>::Known known = participant.known_of(peer);
   if (participant.config().variant == handshake::Variant::paper) return known.state == heard.word.state;
   return known.heard == heard.ever && (!heard.ever || (known.state == heard.word.state && known.run == heard.word.run &&
                                                        known.incarnation == heard.word.incarnation));

@@ -30,6 +30,9 @@ struct Sent {
 
 constexpr std::uint16_t far_ahead = 1000;
 
+/// As on a node, with room for as many slaves as a group can have.
+using Played = handshake::Participant<64>;
+
 class Player {
  public:
   explicit Player(const Query& query)
@@ -41,7 +44,7 @@ class Player {
         register_(wiring_.size()),
         in_flight_(wiring_.size()),
         recorder_(query, wiring_) {
-    for (std::size_t i = 0; i <= query.slaves; ++i) members_.push_back(Participant(config(i, 1)));
+    for (std::size_t i = 0; i <= query.slaves; ++i) members_.push_back(Played(config(i, 1)));
     for (std::size_t c = 0; c < wiring_.size(); ++c) {
       Heard& heard = heard_.emplace_back();
       heard.who = wiring_.receiver(c);
@@ -164,7 +167,7 @@ class Player {
         break;  // of candidates
       case ActionKind::restart: {
         down_[action.who] = false;
-        members_[action.who] = Participant(config(action.who, members_[action.who].config().incarnation + 1));
+        members_[action.who] = Played(config(action.who, members_[action.who].config().incarnation + 1));
         sequence_[action.who] = 0;
         recorder_.restart(action.who);
         for (Heard& heard : heard_)
@@ -218,9 +221,8 @@ class Player {
   }
   /// One packet to all who hear that participant. A number that it has used or will use, or one far ahead.
   void forge(Action action, ReplayStep& done) {
-    const Participant now = down_[action.who]
-                                ? Participant(config(action.who, members_[action.who].config().incarnation))
-                                : members_[action.who];
+    const Played now = down_[action.who] ? Played(config(action.who, members_[action.who].config().incarnation))
+                                         : members_[action.who];
     const Letter letter = forgeries(now.word(), query_.slaves)[action.what];
     const auto sequence = static_cast<std::uint16_t>(sequence_[action.who] + (letter.ahead ? far_ahead : 0));
     for (std::size_t c = 0; c < wiring_.size(); ++c) {
@@ -280,7 +282,7 @@ class Player {
   Query query_;
   Wiring wiring_;
   handshake::Observer observer_;
-  std::vector<Participant> members_;
+  std::vector<Played> members_;
   std::vector<std::uint16_t> sequence_;
   std::vector<bool> down_;
   std::vector<Sent> register_;

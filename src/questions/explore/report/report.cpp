@@ -106,4 +106,25 @@ std::string text_report(const Query& query, const SearchResult& result, double c
   return text;
 }
 
+std::string text_report(const Query& query, const AnyNumber& proof, double cpu_s) {
+  Query one = query;
+  one.slaves = 1;
+  const std::string line = query_line(one);
+  std::string text = "any number of slaves: " + line + "\n";
+  text += std::to_string(proof.views) + " views of the master and one slave, " + std::to_string(proof.masters) +
+          " states of the master, " + fixed(cpu_s, 2) + " s CPU\n";
+  text += !proof.are_alike    ? "The handshake does not treat all slaves alike: nothing follows for more of them.\n"
+          : proof.exhausted   ? "All views were found: what holds in them holds in a group of any size.\n"
+          : proof.interrupted ? "Interrupted: nothing is proved.\n"
+                              : "Not all views were found: the limit of states was reached, and nothing is proved.\n";
+  for (std::size_t p = 0; p < property_count; ++p) {
+    if (proof.verdicts[p] == PropertyVerdict::not_asked) continue;
+    const bool is_violated = proof.verdicts[p] == PropertyVerdict::violated;
+    text += "  " + padded(std::string(property_names[p]), 20) +
+            padded(is_violated ? "not proved" : std::string(name_of(proof.verdicts[p])), 12) +
+            std::string(property_texts[p]) + "\n";
+  }
+  return text;
+}
+
 }  // namespace takt::explore

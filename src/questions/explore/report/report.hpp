@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "explore/model/query.hpp"
+#include "explore/parts/views.hpp"
 #include "explore/search/search.hpp"
 #include "json/type.hpp"
 
@@ -32,5 +33,9 @@ struct Exploration {
   double cpu_s = 0;  ///< as for text_report()
 };
 const json::Record& describe(json::Type<Exploration>);
+
+/// What was proved for every number of slaves. Where a property is "not proved", `takt explore --slaves N` looks for a
+/// run.
+std::string text_report(const Query& query, const AnyNumber& proof, double cpu_s);
 
 }  // namespace takt::explore

@@ -6,6 +6,7 @@
 namespace takt::explore {
 
 class GroupModel;
+class PartsModel;
 class RolesModel;
 class TreeModel;
 
@@ -22,7 +23,8 @@ bool SearchResult::any_violated() const {
 
 SearchResult explore(const Query& query, const Watcher& watcher) {
   if (query.has_roles()) return search<RolesModel>(query, watcher);
-  return query.is_tree() ? search<TreeModel>(query, watcher) : search<GroupModel>(query, watcher);
+  if (query.is_tree()) return search<TreeModel>(query, watcher);
+  return query.has_parts() ? search<PartsModel>(query, watcher) : search<GroupModel>(query, watcher);
 }
 
 }  // namespace takt::explore

@@ -15,6 +15,7 @@
 #include "cli/status_line.hpp"
 #include "cli/terminal.hpp"
 #include "explore/model/recording.hpp"
+#include "explore/parts/views.hpp"
 #include "explore/report/replay.hpp"
 #include "explore/report/report.hpp"
 #include "explore/report/schedule.hpp"
@@ -123,6 +124,10 @@ ExitStatus run(const ExploreOptions& options) {
   if (!can_write({{"--out", options.out, Place::Kind::folder}}, options.format == "json")) return ExitStatus::bad_input;
   const std::vector<verify::Group> subjects = groups_of(options);
   if (subjects.empty()) return ExitStatus::bad_input;
+  if (options.question.any_number && (options.format == "json" || !options.out.empty())) {
+    std::fprintf(stderr, "takt: --any-number prints text: found --format json or --out, expected neither\n");
+    return ExitStatus::bad_input;
+  }
   std::optional<output::WrittenFiles> folder;
   if (!options.out.empty()) folder.emplace(options.out, "explore", options.scenario);
   const InterruptGuard interrupt;
@@ -130,6 +135,15 @@ ExitStatus run(const ExploreOptions& options) {
   json::Node pages = json::Node::array();
   for (const verify::Group& subject : subjects) {
     const double began = cpu_seconds();
+    if (options.question.any_number) {
+      const explore::AnyNumber proof =
+          explore::prove_for_any_number(subject.query, [&](const auto&...) { return !interrupt.requested(); });
+      if (subjects.size() > 1) std::printf("Program %s\n", subject.name.c_str());
+      print(explore::text_report(subject.query, proof, cpu_seconds() - began));
+      if (!proof.is_proved()) status = proof.interrupted ? ExitStatus::interrupted : ExitStatus::requirement_failed;
+      if (proof.interrupted) break;
+      continue;
+    }
     explore::SearchResult result;
     {
       StatusLine line(!options.quiet);
@@ -175,9 +189,11 @@ void add_explore_command(Command app, ExitStatus& status) {
   const auto options = std::make_shared<ExploreOptions>();
   command.add_option("scenario", options->scenario, "Take variant and slaves from its Programs").type_name("SCENARIO");
   command.add_option("--slaves", options->question.slaves, "Slaves of the group")
-      .between(1U, static_cast<unsigned>(explore::most_slaves))
+      .between(1U, static_cast<unsigned>(explore::most_equal_slaves))
       .type_name("N")
       .default_text("1, or the scenario's");
+  command.add_flag("--any-number", options->question.any_number,
+                   "Prove it for every number of slaves at once (robust, star, registers; without forge and replay)");
   command.add_option("--variant", options->question.variant, "The handshake")
       .one_of({"paper", "robust"})
       .default_text("robust, or the scenario's");
@@ -189,7 +205,7 @@ void add_explore_command(Command app, ExitStatus& status) {
       .between(0U, explore::most_faults);
   command.add_option("--calls", options->question.calls, "Method calls and ends of the Program in a run")
       .between(0U, explore::most_commands)
-      .default_text("4, 2, 1, 1 for 1 to 4 slaves");
+      .default_text("4 for 1 slave, 2 for 2, else 1");
   command.add_option("--depth", options->question.query.depth, "Steps of a run").type_name("D").default_text("any");
   command.add_option("--budget", options->question.query.states, "States to store at most")
       .between(std::uint64_t{1}, explore::most_states)
@@ -251,6 +267,8 @@ void add_explore_command(Command app, ExitStatus& status) {
       "  takt explore --slaves 1 --variant paper --out findings\n"
       "  takt explore --slaves 1 --variant paper --no-finish --explain\n"
       "  takt explore scenarios/robot-arm.json --faults restart,timeout --format json\n"
+      "  takt explore --slaves 6 --faults crash\n"
+      "  takt explore --any-number --faults loss,crash\n"
       "  takt explore --slaves 2 --faults loss,reorder --network channels=2\n"
       "  takt explore --slaves 1 --nested --faults crash --calls 2\n"
       "  takt explore --slaves 1 --calls 1 --faults forge\n"

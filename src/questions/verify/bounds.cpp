@@ -7,6 +7,7 @@
 
 #include "analysis/figure_bound.hpp"
 #include "analysis/program_assessment.hpp"
+#include "explore/parts/views.hpp"
 #include "explore/search/search.hpp"
 #include "json/quantity.hpp"
 #include "scenario/figures/requirement.hpp"
@@ -175,11 +176,11 @@ class Prover {
     };
     if (program == resolved_.programs.end()) return unknown("no such Program");
     if (!program->nested.empty() || program->has_roles()) return invariants_of(*program);
-    const std::size_t slaves = program->members.size() - 1;
-    if (slaves > explore::most_slaves)
-      return unknown("at most " + std::to_string(explore::most_slaves) + " slaves can be explored");
     if (program->description->subscription != scenario::Subscription::star)
       return unknown("takt explore --subscription all-to-all looks at it");
+    const std::size_t slaves = program->members.size() - 1;
+    if (slaves > explore::most_slaves && program->description->variant != scenario::Variant::robust)
+      return unknown("at most " + std::to_string(explore::most_slaves) + " slaves can be explored with paper");
     return invariants_of(*program);
   }
 
@@ -240,7 +241,7 @@ class Prover {
     }
     auto known =
         std::find_if(explored_.begin(), explored_.end(), [&](const auto& each) { return each.first == query; });
-    if (known == explored_.end()) known = explored_.insert(explored_.end(), {query, explored(query)});
+    if (known == explored_.end()) known = explored_.insert(explored_.end(), {query, proved(query)});
     proof.holds = known->second.holds;
     proof.reason = known->second.reason;
     proof.remark = known->second.remark;
@@ -300,6 +301,42 @@ class Prover {
       for (const scenario::ResolvedMember& member : resolved_.programs[program].members)
         longest = std::max(longest, bounds_.hosts->of(member.node, member.cpu_thread).worst);
     return longest;
+  }
+
+  /// A small group is explored. What that leaves open, and a larger group, is proved for every number of slaves if that
+  /// goes through; else as many are explored as can be.
+  Proof proved(const explore::Query& query) const {
+    Proof small;
+    if (!query.has_parts()) {
+      small = explored(query);
+      if (small.holds || !query.can_have_parts()) return small;
+    }
+    const Proof any = proved_for_any_number(query);
+    if (any.holds || !query.has_parts()) return any.holds ? any : small;
+    if (query.slaves > explore::most_equal_slaves) return any;
+    Proof large = explored(query);
+    if (!large.holds) large.reason = any.reason + "; " + large.reason;
+    return large;
+  }
+
+  Proof proved_for_any_number(const explore::Query& query) const {
+    const explore::AnyNumber result = explore::prove_for_any_number(
+        query, [&](const auto&...) { return !options_.interrupted || !options_.interrupted(); });
+    Proof proof;
+    proof.holds = true;
+    for (const explore::Property property : {explore::Property::S1, explore::Property::S2, explore::Property::S3,
+                                             explore::Property::S4, explore::Property::S5}) {
+      if (result[property] == explore::PropertyVerdict::holds) continue;
+      proof.holds = false;
+      proof.reason = result.exhausted
+                         ? "the proof for every number of slaves fails at " + std::string(explore::name_of(property))
+                         : fmt::format("{} views of the master and one slave were looked at, not all", result.views);
+      return proof;
+    }
+    proof.remark = fmt::format(
+        "proved for every number of slaves: {} views, {} call{} and {} fault{} before the group rests", result.views,
+        query.commands, query.commands == 1 ? "" : "s", query.fault_budget, query.fault_budget == 1 ? "" : "s");
+    return proof;
   }
 
   Proof explored(const explore::Query& query) const {

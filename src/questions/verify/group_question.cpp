@@ -26,7 +26,7 @@ std::string out_of_range(const GroupQuestion& question) {
                : fmt::format("{}: found {}, expected {}", what, json::quote(found), fmt::join(choices, " or "));
   };
   std::vector<std::string> wrong = {
-      between("slaves", question.slaves.value_or(1), 1, explore::most_slaves),
+      between("slaves", question.slaves.value_or(1), 1, explore::most_equal_slaves),
       between("inner slaves", question.inner_slaves.value_or(1), 1, explore::most_inner_slaves),
       between("candidates", question.candidates.value_or(1), 1, explore::most_explored_candidates),
       between("key changes", question.key_changes.value_or(0), 0, explore::most_key_changes),
@@ -163,14 +163,18 @@ Groups groups_of(const GroupQuestion& question, const scenario::Resolved* scenar
     query.slaves = static_cast<std::uint8_t>(slaves);
     if (question.subscription) all_to_all = *question.subscription == "all-to-all";
     query.subscription = all_to_all ? handshake::Subscription::all_to_all : handshake::Subscription::star;
-    if (const std::size_t most = all_to_all ? explore::most_slaves_all_to_all : explore::most_slaves;
-        slaves > most || slaves == 0) {
+    query.variant = variant_of(variant);
+    const std::size_t most = all_to_all               ? explore::most_slaves_all_to_all
+                             : query.can_have_parts() ? explore::most_equal_slaves
+                                                      : explore::most_slaves;
+    if (slaves == 0 || (slaves > most && !question.any_number)) {
       made.mistake = fmt::format(
-          "{} has {} slaves{}; at most {} can be explored: give --slaves N to explore a smaller group with its variant",
-          name, slaves, all_to_all ? " with all-to-all subscription" : "", most);
+          "{} has {} slaves{}; at most {} can be explored{}: give --slaves N to explore a smaller group with its "
+          "variant",
+          name, slaves, all_to_all ? " with all-to-all subscription" : "", most,
+          all_to_all || query.can_have_parts() ? "" : " with this variant, network and these faults");
       return false;
     }
-    query.variant = variant_of(variant);
     if (question.nested) query.inner_slaves = static_cast<std::uint8_t>(question.inner_slaves.value_or(1));
     if (question.candidates) query.candidates = static_cast<std::uint8_t>(*question.candidates);
     if (question.starts_again) query.starts_again = true;
@@ -189,6 +193,10 @@ Groups groups_of(const GroupQuestion& question, const scenario::Resolved* scenar
     if (wrong.empty()) wrong = not_in_trees(query, question, scenario);
     if (wrong.empty()) wrong = not_with_roles(query, question);
     if (wrong.empty()) wrong = not_with_recordings(query, question);
+    if (wrong.empty() && question.any_number && !query.can_have_parts())
+      wrong =
+          "every number of slaves is proved of robust in a star on registers, without roles, nested groups, joining "
+          "slaves, forge and replay";
     if (wrong.empty())
       made.groups.push_back({name, query});
     else
@@ -196,8 +204,9 @@ Groups groups_of(const GroupQuestion& question, const scenario::Resolved* scenar
     return wrong.empty();
   };
   if (scenario == nullptr) {
-    if (!question.slaves) return mistake("explore needs a scenario or --slaves N");
-    add("group", *question.slaves, handshake::Variant::robust, false);
+    if (!question.slaves && !question.any_number)
+      return mistake("explore needs a scenario, --slaves N or --any-number");
+    add("group", question.slaves.value_or(1), handshake::Variant::robust, false);
     return made;
   }
   for (std::uint32_t number = 0; number < scenario->programs.size(); ++number) {

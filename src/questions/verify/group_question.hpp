@@ -32,6 +32,7 @@ struct GroupQuestion {
   bool starts_again = false;
   bool is_signed = false;
   std::optional<unsigned> key_changes;
+  bool any_number = false;        ///< for every number of slaves at once
   bool writes_scenarios = false;  ///< a scenario for each violation is wanted
 };
 

@@ -118,6 +118,40 @@ TEST(Proofs, OfInvariantsExploreAsManyCallsAndFaultsAsMeet) {
   EXPECT_NE(early.reason.find("not all"), std::string::npos) << early.reason;
 }
 
+/// A line of so many drives, as in tests/findings/halt-of-six-drives.json with a cycle that meets its limit.
+std::string line_of_drives(std::size_t drives, const std::string& more = {}, const std::string& faults = {}) {
+  const std::string last = "d" + std::to_string(drives);
+  std::string slaves;
+  for (std::size_t i = 1; i <= drives; ++i) slaves += (i == 1 ? "\"d" : ", \"d") + std::to_string(i) + "\"";
+  return R"({"name": "line", "duration": "100ms", "network": {"nodes": {"plc": {"kind": "host", "os": "preempt-rt"}},
+    "links": [{"ends": ["plc", "d1"]}], "generate": [{"topology": "line", "stations": )" +
+         std::to_string(drives) +
+         R"(, "station_prefix": "d", "length": "5m", "os": "preempt-rt", "forwarding_delay": "1us"}]},
+    "programs": [{"name": "line", "master": "plc", "slaves": [)" +
+         slaves + R"(], "cycle": "800us")" + more + R"(}],
+    "script": [{"at": "10ms", "program": "line", "call": "Start"}, {"at": "60ms", "program": "line", "call": "Halt", "on": ")" +
+         last + R"("}], "require": [{"reaction": "halt", "within": "2ms"}])" + faults + "}";
+}
+
+// One proof for all sizes, and it says so. What it does not cover is not said to be proved.
+TEST(Proofs, OfInvariantsHoldForEveryNumberOfSlaves) {
+  std::string remark;
+  for (const std::size_t drives : {5U, 6U, 12U, 32U, 64U}) {
+    const Proof found = proved(line_of_drives(drives)).at(1).proof;
+    EXPECT_TRUE(found.holds) << drives << " drives: " << found.reason;
+    EXPECT_TRUE(found.remark.starts_with("proved for every number of slaves: ")) << found.remark;
+    if (remark.empty()) remark = found.remark;
+    EXPECT_EQ(found.remark, remark);
+  }
+  EXPECT_TRUE(proved(line_of_drives(4)).at(1).proof.remark.starts_with("explored: "));
+  const Proof paper = proved(line_of_drives(6, R"(, "variant": "paper")")).at(1).proof;
+  EXPECT_FALSE(paper.holds);
+  EXPECT_EQ(paper.reason, "at most 4 slaves can be explored with paper");
+  const Proof all_to_all = proved(line_of_drives(6, R"(, "subscription": "all-to-all")")).at(1).proof;
+  EXPECT_FALSE(all_to_all.holds);
+  EXPECT_EQ(all_to_all.reason, "takt explore --subscription all-to-all looks at it");
+}
+
 // Words that are lost with the participant that crashes are those of a crash that was explored; all others are not.
 TEST(Proofs, OfInvariantsRestOnWords) {
   const auto rests_on_words = [](const std::string& fault) {

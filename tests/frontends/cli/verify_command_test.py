@@ -99,6 +99,12 @@ class Says(unittest.TestCase):
         self.assertEqual(halt["verdict"], "refuted")
         self.assertGreater(halt["adversarial_ps"], 2_150_000_000)
 
+    # With a cycle that meets the limit all is proved: the handshake for every number of slaves.
+    def test_six_drives_pass(self):
+        status, report = self.verified("tests/findings/halt-of-six-drives.json", "--set", "/programs/0/cycle=800us")
+        self.assertEqual(status, 0)
+        self.assertEqual({each["verdict"] for each in report["requirements"]}, {"pass"})
+
     def test_why_the_search_ended(self):
         _, report = self.verified("tests/findings/waits-before-it-meets.json")
         for each in report["requirements"]:

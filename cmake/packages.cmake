@@ -17,7 +17,7 @@ install(FILES ${manuals}/bash/takt DESTINATION share/bash-completion/completions
 install(FILES ${manuals}/zsh/_takt DESTINATION share/zsh/vendor-completions COMPONENT takt_manuals OPTIONAL)
 install(FILES ${manuals}/fish/takt.fish DESTINATION share/fish/vendor_completions.d COMPONENT takt_manuals OPTIONAL)
 install(FILES cmake/debian/takt-node@.service DESTINATION lib/systemd/system COMPONENT takt_manuals)
-install(DIRECTORY scenarios DESTINATION share/takt COMPONENT takt_manuals)
+install(DIRECTORY scenarios devices DESTINATION share/takt COMPONENT takt_manuals)
 
 # What a package must have beside its files.
 find_program(TAKT_GZIP gzip)

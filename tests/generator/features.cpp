@@ -17,7 +17,7 @@ std::span<const FeatureEntry> features() {
       {latencies, "latencies", "host.os generator.os"},
       {processors, "processors", "host.cpu station.cpu"},
       {queue_limits, "queue_limits", "queues.frames"},
-      {identity_classes, "identity_classes", "switch.traffic_classes=identity generator.traffic_classes=identity"},
+      {identity_classes, "identity_classes", "switch.traffic_classes generator.traffic_classes"},
       {gates, "gates", "egress.gates"},
       {hold, "hold", "gate_entry.mac", {gates, preemption}},
       {set_gates, "set_gates", "script_entry.set_gates"},

@@ -309,6 +309,36 @@ std::optional<Node> jumbo(Maker& m, const Scope&) {
   return m.kept.insert_or_assign("mtu", text("9000B")).first->second;
 }
 
+/// Fewer than eight only where nothing names a class that is not there.
+std::optional<Node> classes_of_node(Maker& m, const Scope&) {
+  for (const Feature each :
+       {Feature::gates, Feature::hold, Feature::shapers, Feature::ets, Feature::max_sdu, Feature::preemption,
+        Feature::cut_through, Feature::ats, Feature::cqf, Feature::policing, Feature::queue_limits, Feature::set_gates,
+        Feature::automatic_gates, Feature::listed_gates})
+    if (m.wants(each)) return text("identity");
+  if (m.draw.one_in(2)) return m.word("identity standard");
+  return number(m.draw.between(1, 8));
+}
+
+/// Only where nothing has gates.
+std::optional<Node> no_gates(Maker& m, const Scope&) {
+  for (const Feature each : {Feature::gates, Feature::hold, Feature::cqf, Feature::set_gates, Feature::automatic_gates,
+                             Feature::listed_gates})
+    if (m.wants(each)) return std::nullopt;
+  return text("none");
+}
+
+/// Types that say little, so that they go with what the scenario has.
+std::optional<Node> device_of_node(Maker& m, const Scope&) { return m.word("plain.json exact.json"); }
+
+/// A medium says the rate, which then is not written; one in half duplex is refused.
+std::optional<Node> medium_of_link(Maker& m, const Scope& s) {
+  if (s.has("rate")) return std::nullopt;
+  if (m.draw.one_in(40)) return text("10BASE-T1S");
+  return m.word(m.is_slow() ? "10BASE-T 10BASE-T1L 100BASE-TX 100BASE-FX 100BASE-T1"
+                            : "1000BASE-T 1000BASE-X 1000BASE-T1 2.5GBASE-T 2.5GBASE-X 5GBASE-T 10GBASE-T 10GBASE-R");
+}
+
 }  // namespace
 
 std::span<const Rule> network_rules() {
@@ -345,6 +375,15 @@ std::span<const Rule> network_rules() {
        .make = [](Maker& m, const Scope&) -> std::optional<Node> {
          return m.word(m.is_slow() ? "10Mbps 100Mbps 100Mbps 1Gbps" : "100Mbps 1Gbps 2.5Gbps 10Gbps");
        }},
+      {.key = "link.medium", .feature = Feature::rates, .percent = 50, .make = medium_of_link},
+      {.key = "host.device", .percent = 5, .make = device_of_node},
+      {.key = "switch.device", .percent = 15, .make = device_of_node},
+      {.key = "station.device", .percent = 15, .make = device_of_node},
+      {.key = "generator.device", .percent = 15, .make = device_of_node},
+      {.key = "host.gates", .percent = 5, .make = no_gates},
+      {.key = "switch.gates", .percent = 15, .make = no_gates},
+      {.key = "station.gates", .percent = 15, .make = no_gates},
+      {.key = "generator.gates", .percent = 15, .make = no_gates},
       {.key = "link.length", .words = "1m 10m 100m 2km"},
       {.key = "link.delay", .words = "0ns 50ns 500ns 3us"},
       {.key = "generator.topology", .make = shape_of_skeleton},
@@ -367,9 +406,12 @@ std::span<const Rule> network_rules() {
       {.key = "generator.forwarding_delay", .percent = 50, .make = forwarding_delay},
       {.key = "generator.os", .feature = Feature::latencies, .percent = 60},
       {.key = "generator.queues", .feature = Feature::queue_limits, .percent = 60},
-      {.key = "generator.traffic_classes", .feature = Feature::identity_classes, .percent = 60},
+      {.key = "generator.traffic_classes",
+       .feature = Feature::identity_classes,
+       .percent = 60,
+       .make = classes_of_node},
       {.key = "host.os", .feature = Feature::latencies, .percent = 70},
-      {.key = "host.traffic_classes", .feature = Feature::identity_classes, .percent = 50},
+      {.key = "host.traffic_classes", .feature = Feature::identity_classes, .percent = 50, .make = classes_of_node},
       {.key = "host.queues", .feature = Feature::queue_limits, .percent = 50},
       {.key = "host.cryptography", .feature = Feature::security, .percent = 60},
       {.key = "host.processing", .feature = Feature::replies, .percent = 50},
@@ -425,10 +467,14 @@ std::span<const Rule> network_rules() {
       {.key = "cpu_thread.stack", .percent = 100, .make = stack_of_thread},
       {.key = "cpu_thread.every",
        .percent = 100,
-       .make = [](Maker& m, const Scope& s) -> std::optional<Node> {
-         return s.has("runs") || s.has("stack") ? m.draw.one_in(3) ? std::optional(m.word("500us 2ms")) : std::nullopt
-                                                : std::optional(m.word("200us 500us 1ms 2ms"));
-       }},
+       .make = [](Maker& m,
+                  const Scope& s) -> std::
+                                      optional<Node> {
+                                        return s.has("runs") || s.has("stack")
+                                                   ? m.draw.one_in(3) ? std::optional(m.word("500us 2ms"))
+                                                                      : std::nullopt
+                                                   : std::optional(m.word("200us 500us 1ms 2ms"));
+                                      }},
       {.key = "cpu_thread.offset",
        .percent = 40,
        .make = [](Maker& m, const Scope& s)
@@ -436,7 +482,7 @@ std::span<const Rule> network_rules() {
       {.key = "station.os", .feature = Feature::latencies, .percent = 70},
       {.key = "station.forwarding_delay", .percent = 70, .make = forwarding_delay},
       {.key = "station.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
-      {.key = "station.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
+      {.key = "station.traffic_classes", .feature = Feature::identity_classes, .percent = 80, .make = classes_of_node},
       {.key = "station.queues", .feature = Feature::queue_limits, .percent = 80},
       {.key = "station.bypass", .feature = Feature::crash, .percent = 60, .words = "true"},
       {.key = "station.bypass_switching", .feature = Feature::crash, .percent = 50, .words = "200us 500us 1ms"},
@@ -448,7 +494,7 @@ std::span<const Rule> network_rules() {
       {.key = "station.forwarding_jitter", .percent = 30, .make = jitter_of_switch},
       {.key = "generator.forwarding_jitter", .percent = 20, .make = jitter_of_switch},
       {.key = "switch.cut_through_header", .feature = Feature::cut_through, .percent = 30, .words = "14B 22B 30B 72B"},
-      {.key = "switch.traffic_classes", .feature = Feature::identity_classes, .percent = 80},
+      {.key = "switch.traffic_classes", .feature = Feature::identity_classes, .percent = 80, .make = classes_of_node},
       {.key = "switch.queues", .feature = Feature::queue_limits, .percent = 80},
       {.key = "generator.gate_limits", .feature = Feature::gates, .percent = 30},
       {.key = "generator.host_gate_limits", .feature = Feature::gates, .percent = 10},

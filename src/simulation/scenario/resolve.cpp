@@ -19,6 +19,7 @@
 #include "scenario/resolve/clocks.hpp"
 #include "scenario/resolve/cpus.hpp"
 #include "scenario/resolve/demand.hpp"
+#include "scenario/resolve/devices.hpp"
 #include "scenario/resolve/egress.hpp"
 #include "scenario/resolve/faults.hpp"
 #include "scenario/resolve/gate_limits.hpp"
@@ -27,6 +28,7 @@
 #include "scenario/resolve/nesting.hpp"
 #include "scenario/resolve/os_profiles.hpp"
 #include "scenario/resolve/policing.hpp"
+#include "scenario/resolve/port_abilities.hpp"
 #include "scenario/resolve/port_configs.hpp"
 #include "scenario/resolve/program_streams.hpp"
 #include "scenario/resolve/replies.hpp"
@@ -48,7 +50,9 @@ class Resolver {
 
   void run() {
     r_.scenario.streams.shrink_to_fit();  // before anybody points into them
+    read_devices(r_.scenario, diagnostics_);
     r_.topology = build_topology(r_.scenario.network, diagnostics_);
+    set_device_clocks(r_.topology, r_.scenario);
     plan_nodes();
     r_.plan.links = r_.topology.links;
     resolve_egress(r_, diagnostics_);
@@ -77,6 +81,8 @@ class Resolver {
     for (const ScriptEntry& entry : r_.scenario.script)
       if (is_read(entry)) add_action(entry);
     check_gate_limits(r_, diagnostics_);
+    check_port_abilities(r_, diagnostics_);
+    check_devices(r_, diagnostics_);
     take(plan_faults(r_, diagnostics_));
     check_windows(r_, diagnostics_);
     std::stable_sort(r_.script.begin(), r_.script.end(),
@@ -150,8 +156,7 @@ class Resolver {
   std::uint32_t port_config_of_node(const NodePorts& ports) {
     models::PortConfig config;
     const Queues& queues = ports.queues;
-    if (ports.traffic_classes == TrafficClasses::identity)
-      config.traffic_class_of_priority = models::identity_traffic_classes;
+    config.traffic_class_of_priority = class_of_priorities(ports.traffic_classes);
     for (models::QueueLimit& limit : config.queue_limits) {
       if (queues.frames) limit.frames = *queues.frames;
       if (queues.octets) limit.octets = queues.octets->count;

@@ -43,6 +43,9 @@ const BadCase cases[] = {
 2:55: error at /gates/classes: does not belong to this plan of gates: found "classes", expected it with "plan": "auto"
 2:69: error at /gates/guard: does not belong to this plan of gates: found "guard", expected it with "plan": "auto"
 2:95: error at /gates/lists: does not belong to this plan of gates: found "lists", expected it with "plan": "listed")"},
+    {"WayOverASwitchWithoutGates", limited(R"("gates": "none")", two_of_six),
+     R"(2:13: error at /streams/0: a stream that no gates can be laid for: found "a" with a way over "sw1", which has no gates, expected what "gates": "auto" can plan, or another class
+3:1: error at /streams/1: a stream that no gates can be laid for: found "b" with a way over "sw1", which has no gates, expected what "gates": "auto" can plan, or another class)"},
     {"MarginToMeasure", with(good, R"("gates": {"plan": "auto", "classes": [6], "margin": "auto"})"),
      R"(2:53: error at /gates/margin: a margin that is not known yet: found "auto", expected a duration, or takt schedule SCENARIO --out FILE, which measures it, and then FILE)"},
     {"ListsThatAreLaidOut",

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -21,8 +22,10 @@
 #include "scenario/description/figures.hpp"
 #include "scenario/description/gate_limits.hpp"
 #include "scenario/description/ingress.hpp"
+#include "scenario/description/medium.hpp"
 #include "scenario/description/requirements.hpp"
 #include "scenario/description/route.hpp"
+#include "scenario/description/traffic_classes.hpp"
 #include "sim/time.hpp"
 #include "sim/units.hpp"
 
@@ -77,8 +80,6 @@ struct Processing {
   std::optional<Latency> per_field;
   bool operator==(const Processing&) const = default;
 };
-
-enum class TrafficClasses : std::uint8_t { standard, identity };
 
 /// Which frame is lost when a queue is full.
 enum class FullQueue : std::uint8_t { newest, oldest };
@@ -182,13 +183,28 @@ struct Egress {
   bool operator==(const Egress&) const = default;
 };
 
+struct Device;  // device.hpp
+
+/// The type of a node, once its file has been read; what it says stands in the other keys then. It takes no part in
+/// comparisons.
+struct DeviceType {
+  std::shared_ptr<const Device> of = {};
+  friend bool operator==(const DeviceType&, const DeviceType&) { return true; }
+};
+
+/// "gates": "none" of a node.
+enum class NoGates : std::uint8_t { none };
+
 /// What the ports of a node do.
 struct NodePorts {
   TrafficClasses traffic_classes = TrafficClasses::standard;
   Queues queues;
   std::vector<Egress> egress;
   std::optional<GateLimits> gate_limits = {};
-  std::optional<Octets> mtu = {};  ///< as the network says if absent
+  std::optional<Octets> mtu = {};          ///< as the network says if absent
+  std::optional<NoGates> gates = {};       ///< its ports have none
+  std::optional<std::string> device = {};  ///< a file; absent once it has been read
+  DeviceType type = {};
   bool operator==(const NodePorts&) const = default;
 };
 
@@ -247,6 +263,7 @@ struct Link {
   DataRate rate{1'000'000'000};
   std::optional<Length> length;
   std::optional<Duration> delay;
+  std::optional<Medium> medium = {};
   bool operator==(const Link&) const = default;
 };
 
@@ -282,6 +299,9 @@ struct Generator {
   std::optional<GateLimits> gate_limits = {};
   std::optional<GateLimits> host_gate_limits = {};
   std::optional<Octets> mtu = {};
+  std::optional<NoGates> gates = {};  ///< as of a node, of the switches or stations
+  std::optional<std::string> device = {};
+  DeviceType type = {};
   bool operator==(const Generator&) const = default;
 };
 
@@ -426,7 +446,6 @@ struct Scenario {
 const json::Object& describe(json::Type<Processing>);
 const json::Enumeration& describe(json::Type<OsProfile>);
 const json::Object& describe(json::Type<OperatingSystem>);
-const json::Enumeration& describe(json::Type<TrafficClasses>);
 const json::Enumeration& describe(json::Type<FullQueue>);
 const json::Object& describe(json::Type<Queues>);
 const json::Object& describe(json::Type<Queues::PerClass>);
@@ -439,6 +458,7 @@ const json::Object& describe(json::Type<Share>);
 const json::Object& describe(json::Type<MaxSdu>);
 const json::Object& describe(json::Type<Preemption>);
 const json::Object& describe(json::Type<Egress>);
+const json::Enumeration& describe(json::Type<NoGates>);
 const json::Object& describe(json::Type<HostNode>);
 const json::Object& describe(json::Type<SwitchNode>);
 const json::Object& describe(json::Type<StationNode>);

@@ -54,16 +54,6 @@ const json::Object& describe(json::Type<OperatingSystem>) {
   return table;
 }
 
-const json::Enumeration& describe(json::Type<TrafficClasses>) {
-  static constexpr json::EnumName names[] = {
-      name(TrafficClasses::standard, "standard", "IEEE 802.1Q Table 8-5: priority 1 lies below priority 0"),
-      name(TrafficClasses::identity, "identity", "priority n is sent in class n"),
-  };
-  static constexpr json::Enumeration table =
-      json::enumeration<TrafficClasses>("a priority to traffic class mapping", names);
-  return table;
-}
-
 const json::Enumeration& describe(json::Type<FullQueue>) {
   static constexpr json::EnumName names[] = {
       name(FullQueue::newest, "newest", "the frame that comes (tail drop)"),
@@ -274,11 +264,22 @@ template <class Owner>
 constexpr json::Field cpu_field = optional<&EndStation::cpu, Owner>(
     "cpu", "Its processor: threads that take time and delay each other. Nothing takes time if absent.");
 template <class Owner>
-constexpr json::Field traffic_classes_field =
-    optional<&NodePorts::traffic_classes, Owner>("traffic_classes", "Which priority is sent in which queue.");
+constexpr json::Field traffic_classes_field = optional<&NodePorts::traffic_classes, Owner>(
+    "traffic_classes",
+    "Which priority is sent in which queue, or how many queues there are: fewer than 8 by the column of IEEE 802.1Q "
+    "Table 8-5; with 1 no priority is looked at.");
 template <class Owner>
 constexpr json::Field gate_limits_field = optional<&NodePorts::gate_limits, Owner>("gate_limits",
                                                                                    "What its gates can do.");
+template <class Owner>
+constexpr json::Field device_field = optional<&NodePorts::device, Owner>(
+    "device",
+    "A file with the type of the node, relative to this one. What the node says itself wins over it; what it asks of "
+    "the device that this has not is an error.",
+    {.min_length = 1, .max_length = 4096});
+template <class Owner>
+constexpr json::Field no_gates_field = optional<&NodePorts::gates, Owner>("gates",
+                                                                          "Its ports have no transmission gates.");
 template <class Owner>
 constexpr json::Field mtu_field =
     optional<&NodePorts::mtu, Owner>("mtu",
@@ -304,14 +305,24 @@ constexpr json::Field ingress_field = optional<&Relay::ingress, Owner>("ingress"
 
 }  // namespace
 
+const json::Enumeration& describe(json::Type<NoGates>) {
+  static constexpr json::EnumName names[] = {
+      name(NoGates::none, "none", "lists of gates are refused, and automatic gates leave its ports open"),
+  };
+  static constexpr json::Enumeration table = json::enumeration<NoGates>("what a node has instead of gates", names);
+  return table;
+}
+
 const json::Object& describe(json::Type<HostNode>) {
   static constexpr json::Field fields[] = {
+      device_field<HostNode>,
       os_field<HostNode>,
       traffic_classes_field<HostNode>,
       optional<&NodePorts::queues, HostNode>("queues", "The queues of each network interface."),
       optional<&NodePorts::egress, HostNode>("egress", "Gates and shapers of the network interfaces.",
                                              {.max_items = 16}),
       gate_limits_field<HostNode>,
+      no_gates_field<HostNode>,
       mtu_field<HostNode>,
       processing_field<HostNode>,
       cryptography_field<HostNode>,
@@ -325,6 +336,7 @@ const json::Object& describe(json::Type<HostNode>) {
 
 const json::Object& describe(json::Type<SwitchNode>) {
   static constexpr json::Field fields[] = {
+      device_field<SwitchNode>,
       forwarding_delay_field<SwitchNode>,
       forwarding_jitter_field<SwitchNode>,
       cut_through_header_field<SwitchNode>,
@@ -334,6 +346,7 @@ const json::Object& describe(json::Type<SwitchNode>) {
           "egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.",
           {.max_items = 4096}),
       gate_limits_field<SwitchNode>,
+      no_gates_field<SwitchNode>,
       mtu_field<SwitchNode>,
       ingress_field<SwitchNode>,
   };
@@ -344,6 +357,7 @@ const json::Object& describe(json::Type<SwitchNode>) {
 
 const json::Object& describe(json::Type<StationNode>) {
   static constexpr json::Field fields[] = {
+      device_field<StationNode>,
       os_field<StationNode>,
       forwarding_delay_field<StationNode>,
       forwarding_jitter_field<StationNode>,
@@ -354,6 +368,7 @@ const json::Object& describe(json::Type<StationNode>) {
           "egress", "Gates and shapers of ports; an entry for a neighbour takes the place of one for all.",
           {.max_items = 16}),
       gate_limits_field<StationNode>,
+      no_gates_field<StationNode>,
       mtu_field<StationNode>,
       ingress_field<StationNode>,
       optional<&StationNode::bypass>("bypass", "A relay joins the cables at ports 0 and 1 while the station is down."),
@@ -391,6 +406,7 @@ const json::Object& describe(json::Type<Link>) {
       optional<&Link::length>("length", "Length of the cable at 5 ns/m; 10 m if neither length nor delay is given.",
                               {.max = Length{100'000'000}}),
       optional<&Link::delay>("delay", "Propagation delay, instead of a length.", {.max = 1_s}),
+      optional<&Link::medium>("medium", "What it is made of; its rate follows. Delays of devices may depend on it."),
   };
   static constexpr std::string_view either[] = {"length", "delay"};
   static constexpr json::Group groups[] = {json::at_most_one_of(either)};
@@ -459,6 +475,9 @@ const json::Object& describe(json::Type<Generator>) {
       optional<&Generator::host_gate_limits>("host_gate_limits", "What the gates of the hosts can do."),
       optional<&Generator::mtu>("mtu", "Of all its nodes, as that of a node.",
                                 {.min = models::maximum_msdu, .max = models::largest_msdu}),
+      optional<&Generator::gates>("gates", "The ports of the switches or stations have no transmission gates."),
+      optional<&Generator::device>("device", "A file with the type of the switches or stations, as that of a node.",
+                                   {.min_length = 1, .max_length = 4096}),
       optional<&Generator::ingress>("ingress", "Policing, ATS and CQF of the switches or stations."),
   };
   static constexpr json::Object table = json::object<Generator>("generator", "A whole topology.", fields);

@@ -140,7 +140,10 @@ class Extraction {
   }
 
   std::string check_node(std::uint32_t node) const {
-    const Relay* const bridge = relay_of(r_.topology.nodes[node].description);
+    const Node& description = r_.topology.nodes[node].description;
+    const Relay* const bridge = relay_of(description);
+    if (ports_of(description).gates)
+      return "a way over " + json::quote(r_.topology.nodes[node].name) + ", which has no gates";
     if (r_.plan.nodes[node].forwarding_jitter)
       return "a way over " + json::quote(r_.topology.nodes[node].name) + ", whose forwarding delay has jitter";
     if (bridge == nullptr || !bridge->ingress) return {};

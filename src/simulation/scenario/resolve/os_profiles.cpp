@@ -77,7 +77,7 @@ Distribution shifted_exponential(const BodyAndTail& d) {
   return Distribution::empirical(std::move(points)).clamped(d.least, d.tail_from);
 }
 
-Distribution distribution_of(const BodyAndTail& d) {
+Distribution mixture_of(const BodyAndTail& d) {
   return Distribution::mixture(shifted_exponential(d), Distribution::uniform(d.tail_from, d.greatest),
                                d.tail_parts_per_billion)
       .clamped(d.least, d.greatest);
@@ -91,9 +91,9 @@ models::OsLatency os_latency_of(const OperatingSystem& os, json::Diagnostics& di
   models::OsLatency latency;
   for (const Profile& profile : profiles) {
     if (profile.name != os.profile) continue;
-    latency.wake_up = distribution_of(profile.wake_up);
-    latency.transmit = distribution_of(profile.transmit);
-    latency.receive = distribution_of(profile.receive);
+    latency.wake_up = mixture_of(profile.wake_up);
+    latency.transmit = mixture_of(profile.transmit);
+    latency.receive = mixture_of(profile.receive);
   }
   if (os.wake_up) latency.wake_up = distribution_of(*os.wake_up, diagnostics);
   if (os.transmit) latency.transmit = distribution_of(*os.transmit, diagnostics);

@@ -49,7 +49,7 @@ class Builder {
         if (end->port) claim_named(*end, *link.link);
     for (const GeneratedLink& link : generated_links_) join({link.a, {}, 0}, {link.b, {}, 0}, link.rate, link.delay);
     for (const ParsedLink& link : parsed) {
-      join(link.a, link.b, link.link->rate, delay_of(*link.link));
+      join(link.a, link.b, rate_of(*link.link), delay_of(*link.link));
       parsed_where_.push_back(link.link->where);
     }
     check_pairs();
@@ -146,8 +146,9 @@ class Builder {
   }
 
   static Node node_of(models::NodeKind kind, const Generator& generator) {
-    const NodePorts ports{generator.traffic_classes, generator.queues, generator.egress, generator.gate_limits,
-                          generator.mtu};
+    const NodePorts ports{
+        generator.traffic_classes, generator.queues, generator.egress, generator.gate_limits, generator.mtu,
+        generator.gates,           std::nullopt,     generator.type};
     const EndStation end_station{generator.os};
     const Relay relay{.forwarding_delay = generator.forwarding_delay,
                       .forwarding_jitter = generator.forwarding_jitter,
@@ -181,7 +182,7 @@ class Builder {
 
   std::optional<ParsedLink> parse_link(const Link& link) {
     if (link.ends.size() != 2) return std::nullopt;  // already reported by the table
-    check_rate(link.rate, link.where.at("rate"));
+    check_rate(rate_of(link), link.where.at("rate"));
     const auto a = parse_end(link, 0);
     const auto b = parse_end(link, 1);
     if (!a || !b) return std::nullopt;
@@ -329,6 +330,10 @@ bool Topology::is_named(std::string_view to, std::uint32_t neighbour, std::uint1
   const std::string& name = nodes[neighbour].name;
   return to.starts_with(name) &&
          (to.size() == name.size() || to.substr(name.size()) == ":" + std::to_string(their_port));
+}
+
+DataRate rate_of(const Link& link) {
+  return link.medium && !link.where.has("rate") ? rate_of(*link.medium) : link.rate;
 }
 
 Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics) {

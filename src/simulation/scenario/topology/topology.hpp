@@ -64,6 +64,9 @@ struct Topology {
   bool is_named(std::string_view to, std::uint32_t neighbour, std::uint16_t their_port) const;
 };
 
+/// As it is written, else that of its medium.
+DataRate rate_of(const Link& link);
+
 /// Builds the topology; mistakes go to `diagnostics`. What could be built is returned even then.
 Topology build_topology(const NetworkSection& network, json::Diagnostics& diagnostics);
 

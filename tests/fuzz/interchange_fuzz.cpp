@@ -49,8 +49,9 @@ void try_import(const interchange::ImportFormat& format, const std::string& name
   }
   const takt::scenario::Scenario into = base();
   const interchange::Imported imported = format.read({files, has_base ? &into : nullptr, *settings}, diagnostics);
-  TAKT_CHECK(imported.scenario.has_value() || diagnostics.has_errors(), "what is refused has a diagnostic");
-  TAKT_CHECK(!(imported.scenario.has_value() && diagnostics.has_errors()), "no scenario with a mistake");
+  const bool has_made = imported.scenario.has_value() || imported.device.has_value();
+  TAKT_CHECK(has_made || diagnostics.has_errors(), "what is refused has a diagnostic");
+  TAKT_CHECK(!(has_made && diagnostics.has_errors()), "nothing is made with a mistake");
   TAKT_CHECK(diagnostics.to_text().size() <= std::size_t{1} << 22, "what is told to the user is bounded");
   for (const interchange::Remark& remark : imported.remarks)
     TAKT_CHECK(!interchange::to_text(remark).empty(), "a remark says something");

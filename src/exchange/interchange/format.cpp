@@ -89,6 +89,14 @@ const std::array imports{
                  true,
                  false,
                  import_yang},
+    ImportFormat{"device",
+                 "a type of device, by what a bridge announces (iecieee60802-bridge, -ethernet-interface, "
+                 "-sched-bridge, state of IEEE 802.1Q)",
+                 "TYPE.json, TYPE.xml: instance data of one bridge",
+                 {},
+                 false,
+                 false,
+                 import_device},
     ImportFormat{
         "lldp",
         "the topology that LLDP daemons see",

@@ -51,6 +51,7 @@ struct ImportRequest {
 
 struct Imported {
   std::optional<scenario::Scenario> scenario;
+  std::optional<std::string> device;  ///< instead: the text of a file with a type of device
   std::vector<Remark> remarks;
   InterfaceNames interfaces;  ///< as the devices call them, where an export would call one of a node otherwise
   std::map<std::string, json::Place> origins;  ///< where in the files what stands at a pointer of the scenario was said

@@ -99,6 +99,24 @@ bool is_sound_scenario(const std::string& text, const std::string& name, const i
   return false;
 }
 
+ExitStatus write_out(const ImportOptions& options, const std::string& text,
+                     const interchange::InterfaceNames& interfaces) {
+  if (options.out.empty()) {
+    if (!interfaces.empty())
+      std::fprintf(stderr,
+                   "takt: the names of interfaces are not kept on standard output; --out FILE.json writes them into "
+                   "FILE.names.json\n");
+    std::fputs(text.c_str(), stdout);
+    return ExitStatus::pass;
+  }
+  std::string problem = output::write_file(options.out, text);
+  if (problem.empty() && !interfaces.empty())
+    problem = output::write_file(interchange::names_file_of(options.out), interchange::interfaces_table(interfaces));
+  if (problem.empty()) return ExitStatus::pass;
+  std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
+  return ExitStatus::internal_error;
+}
+
 ExitStatus run_import(const ImportOptions& options) {
   const interchange::ImportFormat& format = *interchange::find_import_format(options.format);
   std::string mistake;
@@ -122,27 +140,14 @@ ExitStatus run_import(const ImportOptions& options) {
   interchange::Imported imported;
   if (!diagnostics.has_errors()) imported = format.read({files, base ? &*base : nullptr, *settings}, diagnostics);
   std::fputs(diagnostics.to_text().c_str(), stderr);
-  if (diagnostics.has_errors() || !imported.scenario) return ExitStatus::bad_input;
+  if (diagnostics.has_errors() || (!imported.scenario && !imported.device)) return ExitStatus::bad_input;
   for (const interchange::Remark& remark : imported.remarks)
     std::fprintf(stderr, "%s\n", interchange::to_text(remark).c_str());
+  if (imported.device) return write_out(options, *imported.device, {});
   const std::string text = interchange::sparse_text(*imported.scenario);
   if (!is_sound_scenario(text, options.out.empty() ? "scenario.json" : options.out, imported, files.size()))
     return ExitStatus::bad_input;
-  if (options.out.empty()) {
-    if (!imported.interfaces.empty())
-      std::fprintf(stderr,
-                   "takt: the names of interfaces are not kept on standard output; --out FILE.json writes them into "
-                   "FILE.names.json\n");
-    std::fputs(text.c_str(), stdout);
-    return ExitStatus::pass;
-  }
-  std::string problem = output::write_file(options.out, text);
-  if (problem.empty() && !imported.interfaces.empty())
-    problem =
-        output::write_file(interchange::names_file_of(options.out), interchange::interfaces_table(imported.interfaces));
-  if (problem.empty()) return ExitStatus::pass;
-  std::fprintf(stderr, "takt: cannot write: %s\n", problem.c_str());
-  return ExitStatus::internal_error;
+  return write_out(options, text, imported.interfaces);
 }
 
 }  // namespace
@@ -155,7 +160,8 @@ void add_import_command(Command app, ExitStatus& status) {
   command.add_option("FORMAT", options->format, "What the files are (below)").required().one_of(names);
   command.add_option("FILES", options->files, "The files, as NODE=FILE where a file is not called after its node")
       .required();
-  command.add_option("--out", options->out, "The scenario file to write; standard output if absent").type_name("FILE");
+  command.add_option("--out", options->out, "The scenario (device: the type) to write; standard output if absent")
+      .type_name("FILE");
   command
       .add_option("--into", options->into,
                   "A scenario with the network that the devices are in, and all that the files do not say")

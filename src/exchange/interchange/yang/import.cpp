@@ -6,6 +6,7 @@
 #include "interchange/class_map.hpp"
 #include "interchange/device_import.hpp"
 #include "interchange/gate_times.hpp"
+#include "interchange/yang/device_type.hpp"
 #include "interchange/yang/gptp.hpp"
 #include "interchange/yang/limits.hpp"
 #include "interchange/yang/modules.hpp"
@@ -443,6 +444,7 @@ Imported import_yang(const ImportRequest& request, json::Diagnostics& diagnostic
   yang::DeviceData tables;
   for (const auto& [file, data] : read) tables.emplace_back(file->device, &data);
   yang::read_redundancy(tables, names, *imported.scenario, imported, diagnostics);
+  yang::set_announced(tables, *imported.scenario, imported, diagnostics);
   if (diagnostics.has_errors()) imported.scenario.reset();
   return imported;
 }

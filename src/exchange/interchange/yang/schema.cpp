@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "interchange/yang/device_schema.hpp"
 #include "interchange/yang/modules.hpp"
+#include "interchange/yang/schema_words.hpp"
 
 namespace takt::interchange::yang {
 namespace {
@@ -37,6 +39,8 @@ constexpr Module modules[] = {
     {hs_m, "urn:ieee:std:802.1AS:yang:ieee802-dot1as-hs"},
     {eth_m, "urn:ieee:std:802.3:yang:ieee802-ethernet-interface"},
     {mac_merge_m, "urn:ieee:std:802.3:yang:ieee802-ethernet-mac-merge"},
+    {iec_bridge_m, "urn:ieee:std:60802:yang:iecieee60802-bridge"},
+    {iec_eth_m, "urn:ieee:std:60802:yang:iecieee60802-ethernet-interface"},
     {iec_sched_m, "urn:ieee:std:60802:yang:iecieee60802-sched-bridge"},
     {stream_id_2017_m, "urn:ieee:std:802.1Q:yang:ieee802-dot1q-stream-id"},
     {cnc_m, "urn:ieee:std:802.1Q:yang:ieee802-dot1q-cnc-config"},
@@ -49,45 +53,6 @@ constexpr std::string_view algorithms =
     "transmission-selection|ieee802-dot1q-types:asynchronous-traffic-shaping";
 constexpr std::string_view ipv = "zero|one|two|three|four|five|six|seven|null";
 constexpr std::string_view priorities = "zero|one|two|three|four|five|six|seven|wildcard";
-
-constexpr Schema leaf(std::string_view module, std::string_view name, Type type, bool mandatory = false,
-                      std::uint64_t least = 0, std::uint64_t most = ~std::uint64_t{0}) {
-  return {module, name, type, {}, {}, {}, mandatory, least, most};
-}
-constexpr Schema one_of(std::string_view module, std::string_view name, std::string_view choices,
-                        bool mandatory = false) {
-  return {module, name, choice, {}, {}, choices, mandatory};
-}
-constexpr Schema identity_of(std::string_view module, std::string_view name, std::string_view choices,
-                             bool mandatory = false) {
-  return {module, name, identity, {}, {}, choices, mandatory};
-}
-constexpr Schema node(std::string_view module, std::string_view name, std::span<const Schema> children) {
-  return {module, name, container, children};
-}
-constexpr Schema entries(std::string_view module, std::string_view name, std::string_view key,
-                         std::span<const Schema> children) {
-  return {module, name, list, children, key};
-}
-constexpr Schema state(std::string_view module, std::string_view name) {
-  Schema schema{module, name, anything};
-  schema.is_state = true;
-  return schema;
-}
-/// What a device can be told and takt has nothing for: read past, with a remark.
-constexpr Schema unheard(std::string_view module, std::string_view name) { return {module, name, anything}; }
-constexpr Schema leaves(std::string_view module, std::string_view name, Type type) {
-  Schema schema{module, name, type};
-  schema.is_leaf_list = true;
-  return schema;
-}
-
-template <const std::string_view& m>
-constexpr Schema rational[] = {leaf(m, "numerator", uint32), leaf(m, "denominator", uint32, false, 1)};
-template <const std::string_view& m>
-constexpr Schema rational_of_2018[] = {leaf(m, "numerator", uint32), leaf(m, "denominator", uint32)};
-template <const std::string_view& m>
-constexpr Schema ptp_time[] = {leaf(m, "seconds", uint64), leaf(m, "nanoseconds", uint32)};
 
 // Gates of ports, published.
 constexpr Schema gate_entry[] = {leaf(sched_bridge_m, "index", uint32, true),
@@ -184,6 +149,11 @@ constexpr Schema bridge_port[] = {
     unheard(dot1q_m, "service-access-priority-selection"),
     state(dot1q_m, "media-dependent-overhead"),
     state(ats_bridge_m, "discarded-frames-count"),
+    state(iec_bridge_m, "max-burst-params"),
+    state(iec_bridge_m, "committed-data-rates"),
+    entries(iec_bridge_m, "transmission-selection-algorithm", "traffic-class", supported_algorithms),
+    entries(iec_bridge_m, "supported-resource-pools", "resource-pool-name", resource_pool),
+    entries(iec_bridge_m, "phy-latencies", "mau-type", phy_latency),
 };
 constexpr Schema merge_control[] = {one_of(mac_merge_m, "merge-enable-tx", "enabled|disabled"),
                                     one_of(mac_merge_m, "verify-disable-tx", "enabled|disabled"),
@@ -200,7 +170,8 @@ constexpr Schema ethernet[] = {node(mac_merge_m, "mac-merge", merge),
                                state(eth_m, "capabilities"),
                                state(eth_m, "max-frame-length"),
                                state(eth_m, "mac-control-extension-control"),
-                               state(eth_m, "frame-limit-slow-protocol")};
+                               state(eth_m, "frame-limit-slow-protocol"),
+                               entries(iec_eth_m, "supported-mau-types", "mau-type", supported_mau)};
 
 // Gates of ports, 2018.
 constexpr Schema parameters_of_2018[] = {leaf(sched_m, "gate-states-value", uint8, false, 0, 255),
@@ -424,6 +395,18 @@ constexpr Schema component_published[] = {
     node(psfp_bridge_m, "stream-filters", stream_filters),
     node(ats_bridge_m, "stream-gates", ats_gates),
     node(ats_bridge_m, "stream-filters", ats_filters),
+    leaf(iec_bridge_m, "frer-supported", boolean),
+    leaf(iec_bridge_m, "max-ptp-instances", uint8),
+    entries(iec_bridge_m, "independent-delays", "in-port-mau-type out-port-mau-type traffic-class", independent_delay),
+    entries(iec_bridge_m, "dependent-delays", "in-port-line-speed", dependent_delay),
+    entries(iec_bridge_m, "independent-delays-cascaded",
+            "in-port in-port-mau-type out-port out-port-mau-type traffic-class", independent_delay_of_ports),
+    entries(iec_bridge_m, "dependent-delays-cascaded", "in-port in-port-line-speed out-port", dependent_delay_of_ports),
+    state(iec_bridge_m, "max-redundant-streams"),
+    state(iec_bridge_m, "max-fids"),
+    state(iec_bridge_m, "max-fdb-entries"),
+    state(iec_bridge_m, "max-hot-standby-systems"),
+    state(iec_bridge_m, "clock"),
 };
 
 // Policing, 2018; stream identification as NXP's module had it.

@@ -16,4 +16,7 @@ Exported export_yang(const ExportRequest& request);
 /// Files of devices: config, edits and state; limits that devices announce are told.
 Imported import_yang(const ImportRequest& request, json::Diagnostics& diagnostics);
 
+/// The same files, as a type of device: what one bridge announces of itself.
+Imported import_device(const ImportRequest& request, json::Diagnostics& diagnostics);
+
 }  // namespace takt::interchange

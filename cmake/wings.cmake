@@ -6,7 +6,7 @@ set(takt_modules
     foundation/json foundation/plant foundation/application foundation/schedule foundation/xml
     foundation/schedule_instances
     simulation/results simulation/scenario simulation/evaluation simulation/explain
-    questions/analysis questions/explore questions/schedule_check questions/verify questions/synthesis
+    questions/analysis questions/explore questions/profile questions/schedule_check questions/verify questions/synthesis
     presentation/chart presentation/output presentation/report
     exchange/interchange
     experiments/study experiments/papers experiments/property

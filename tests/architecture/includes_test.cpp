@@ -43,7 +43,7 @@ const std::vector<Wing>& wings() {
        with_chance()},
       {"simulation", {"results", "scenario", "evaluation", "explain"}, {"protocol", "foundation"}, all},
       {"questions",
-       {"analysis", "explore", "schedule_check", "verify", "synthesis"},
+       {"analysis", "explore", "profile", "schedule_check", "verify", "synthesis"},
        {"protocol", "foundation", "simulation"},
        all},
       {"presentation", {"chart", "output", "report"}, {"protocol", "foundation", "simulation", "questions"}, all},

@@ -7,8 +7,9 @@
 #include "cli/file_kinds.hpp"
 #include "explain/explanation.hpp"
 #include "explore/report/report.hpp"
+#include "profile/profile.hpp"
 #include "results/run_result.hpp"
-#include "scenario/description/description.hpp"
+#include "scenario/description/device.hpp"
 #include "verify/report_record.hpp"
 
 namespace takt::cli {
@@ -22,6 +23,8 @@ constexpr std::array core_kinds{
     written_as<verify::Report>("verify", "takt verify --format json"),
     written_as<explain::Explanation>("explain", "takt explain --format json"),
     written_as<explore::Exploration>("explore", "takt explore --format json"),
+    written_as<profile::Report>("profile", "takt check --profile PROFILE --format json"),
+    read_as<scenario::Device>("device", "a type of device"),
 };
 
 }  // namespace

@@ -47,11 +47,12 @@ void add_schema_command(Command app, ExitStatus& status, std::span<const FileKin
   for (const char* const name : companion_kinds)
     if (std::ranges::find(names, name) == names.end()) names.emplace_back(name);
   command
-      .add_option("KIND", options->kind,
-                  "The kind of file: scenario, study, node (of Programs) or applications (a node of them); of output: "
-                  "result, bound, verify, explain, explore, schedule (of instances), schedule-scenario, "
-                  "schedule-change (of a scenario), compare, status, describe (of a node), statistics (of a node of "
-                  "applications) or emulate (takt check --format json writes a scenario)")
+      .add_option(
+          "KIND", options->kind,
+          "The kind of file: scenario, device, study, node (of Programs) or applications (a node of them); of output: "
+          "result, profile, bound, verify, explain, explore, schedule (of instances), schedule-scenario, "
+          "schedule-change (of a scenario), compare, status, describe (of a node), statistics (of a node of "
+          "applications) or emulate (takt check --format json writes a scenario)")
       .one_of(names);
   command.add_flag("--reference", options->as_reference,
                    "Markdown for people instead: every key with unit, range, default and meaning");

@@ -307,7 +307,8 @@ constexpr json::Field ingress_field = optional<&Relay::ingress, Owner>("ingress"
 
 const json::Enumeration& describe(json::Type<NoGates>) {
   static constexpr json::EnumName names[] = {
-      name(NoGates::none, "none", "lists of gates are refused, and automatic gates leave its ports open"),
+      name(NoGates::none, "none",
+           "lists of gates are refused, and scheduled streams of automatic gates may not pass it"),
   };
   static constexpr json::Enumeration table = json::enumeration<NoGates>("what a node has instead of gates", names);
   return table;

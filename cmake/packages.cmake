@@ -3,7 +3,8 @@
 #
 #   tools/packages        builds them into build/packages
 #
-# Man pages, completions and the systemd unit go with the command. What lintian says of the packages is argued in cmake/debian/.
+# Man pages, completions and the systemd unit go with the command. What lintian says of the packages is argued in
+# cmake/debian/.
 
 set(manuals ${PROJECT_BINARY_DIR}/manuals)
 find_program(TAKT_MANUALS_PYTHON python3)
@@ -34,9 +35,11 @@ if(TAKT_GZIP)
       continue()
     endif()
     install(FILES cmake/debian/copyright DESTINATION share/doc/${name} COMPONENT ${component})
-    install(FILES ${PROJECT_BINARY_DIR}/debian/changelog.Debian.gz DESTINATION share/doc/${name} RENAME changelog.gz COMPONENT ${component})
+    install(FILES ${PROJECT_BINARY_DIR}/debian/changelog.Debian.gz DESTINATION share/doc/${name} RENAME changelog.gz
+      COMPONENT ${component})
     if(EXISTS ${PROJECT_SOURCE_DIR}/cmake/debian/${name}.lintian-overrides)
-      install(FILES cmake/debian/${name}.lintian-overrides DESTINATION share/lintian/overrides RENAME ${name} COMPONENT ${component})
+      install(FILES cmake/debian/${name}.lintian-overrides DESTINATION share/lintian/overrides RENAME ${name}
+        COMPONENT ${component})
     endif()
   endforeach()
 endif()
@@ -52,7 +55,8 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The takt authors <takt@localhost.localdomai
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEBUGINFO_PACKAGE ${TAKT_DEBUG_SYMBOLS})
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
+  WORLD_READ WORLD_EXECUTE)
 
 # A component is a package; the command comes with its manuals.
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)

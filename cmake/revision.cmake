@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Writes OUT, a header with the revision of the sources and the optional features of the build; only if it has changed, so that nothing is compiled in vain.
+# Writes OUT, a header with the revision of the sources and the optional features of the build; only if it has
+# changed, so that nothing is compiled in vain.
 # A source archive without git has no revision.
 find_program(git git)
 set(revision "")

@@ -9,7 +9,8 @@ target_compile_options(takt_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow 
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(takt_options INTERFACE -Wno-restrict)  # GCC bug 105651: false alarms for string concatenation
 endif()
-# What the optimiser believes to see differs from one release of GCC to the next, and is wrong at times: it is told, and stops nobody.
+# What the optimiser believes to see differs from one release of GCC to the next, and is wrong at times: it is told,
+# and stops nobody.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(takt_options INTERFACE $<$<CONFIG:Release>:-Wno-error=maybe-uninitialized -Wno-error=array-bounds -Wno-error=stringop-overflow
                                                 -Wno-error=stringop-overread -Wno-error=free-nonheap-object>
@@ -19,7 +20,8 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(takt_options INTERFACE $<BUILD_INTERFACE:$<$<CONFIG:Release>:--param=ggc-min-heapsize=300000>>)
 endif()
-# Of sources that are compiled together (takt_unity below) one may name a variable as another names a constant, and GCC takes classes of a .cpp
+# Of sources that are compiled together (takt_unity below) one may name a variable as another names a constant, and
+# GCC takes classes of a .cpp
 # file for classes of a header, whose members should not be of types without linkage.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(takt_options INTERFACE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow -Wshadow=local -Wno-subobject-linkage>)
@@ -27,7 +29,8 @@ else()
   target_compile_options(takt_options INTERFACE $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-shadow>)
 endif()
 if(TAKT_SANITIZE)
-  target_compile_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE} -fno-sanitize-recover=all
+    -fno-omit-frame-pointer)
   target_link_options(takt_options INTERFACE -fsanitize=${TAKT_SANITIZE})
 endif()
 if(TAKT_FUZZ)
@@ -43,9 +46,11 @@ function(takt_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 24)
 endfunction()
 
-# Headers that nearly every source includes are compiled once for those that are compiled alike: CAREFULLY, QUICKLY, or with GoogleTest TESTS. The other compilers
+# Headers that nearly every source includes are compiled once for those that are compiled alike: CAREFULLY, QUICKLY,
+# or with GoogleTest TESTS. The other compilers
 # check that each source includes what it needs.
-set(takt_standard_headers <algorithm> <array> <cstdint> <functional> <map> <memory> <optional> <span> <string> <variant> <vector>)
+set(takt_standard_headers <algorithm> <array> <cstdint> <functional> <map> <memory> <optional> <span> <string>
+  <variant> <vector>)
 function(takt_precompiled target kind)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
@@ -68,7 +73,8 @@ function(takt_precompiled target kind)
   target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
 
-# takt_feature(NAME FOUND): something optional that `takt --version` tells of; NAME is what people call it, FOUND whether this build has it.
+# takt_feature(NAME FOUND): something optional that `takt --version` tells of; NAME is what people call it, FOUND
+# whether this build has it.
 function(takt_feature name)
   set(has without)
   if(${ARGN})
@@ -77,9 +83,12 @@ function(takt_feature name)
   set_property(GLOBAL APPEND PROPERTY TAKT_FEATURES "${has} ${name}")
 endfunction()
 
-# takt_library(NAME [SINGLY] SOURCES a.cpp ... QUICKLY b.cpp ... LINKS other ...): one layer of the house; it links only what the layer may use.
-# QUICKLY are sources whose speed nobody notices (descriptions, commands, reports): they are compiled with -Og, in two thirds of the time that -O1 takes. Several sources are compiled at a
-# time (TAKT_UNITY), since most of what they take is the headers; SINGLY not, where what the optimiser sees at a time decides about the speed. Headers are included from the repository's root ("sim/time.hpp") or from their
+# takt_library(NAME [SINGLY] SOURCES a.cpp ... QUICKLY b.cpp ... LINKS other ...): one layer of the house; it links
+# only what the layer may use.
+# QUICKLY are sources whose speed nobody notices (descriptions, commands, reports): they are compiled with -Og, in two
+# thirds of the time that -O1 takes. Several sources are compiled at a
+# time (TAKT_UNITY), since most of what they take is the headers; SINGLY not, where what the optimiser sees at a time
+# decides about the speed. Headers are included from the repository's root ("sim/time.hpp") or from their
 # wing ("handshake/participant.hpp").
 set(takt_include_folders ${takt_wings})
 list(TRANSFORM takt_include_folders PREPEND "${PROJECT_SOURCE_DIR}/src/")
@@ -121,7 +130,8 @@ function(takt_library name)
   target_compile_features(${name} ${reach} cxx_std_20)
 endfunction()
 
-# takt_test(NAME SOURCES a_test.cpp ... LINKS takt_sim ...): one GoogleTest binary, run by ctest as one test. Its sources are compiled together too (TAKT_UNITY).
+# takt_test(NAME SOURCES a_test.cpp ... LINKS takt_sim ...): one GoogleTest binary, run by ctest as one test. Its
+# sources are compiled together too (TAKT_UNITY).
 function(takt_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;DEFINES" ${ARGN})
   if(NOT TAKT_TESTS)
@@ -149,7 +159,8 @@ function(takt_test_support name)
   endif()
 endfunction()
 
-# takt_tier(TIER TEST...): these tests belong to the tier "full" or "night" of tools/test. A test without a tier is in all of them.
+# takt_tier(TIER TEST...): these tests belong to the tier "full" or "night" of tools/test. A test without a tier is in
+# all of them.
 function(takt_tier tier)
   if(NOT tier MATCHES "^(full|night)$")
     message(FATAL_ERROR "takt_tier: expected full or night, found ${tier}")
@@ -157,14 +168,16 @@ function(takt_tier tier)
   set_property(TEST ${ARGN} APPEND PROPERTY LABELS ${tier})
 endfunction()
 
-# takt_mutants(NAME TABLE SAMPLE OPTION...): the mutants of a table are killed by the tests that it names; SAMPLE of them, at night all.
+# takt_mutants(NAME TABLE SAMPLE OPTION...): the mutants of a table are killed by the tests that it names; SAMPLE of
+# them, at night all.
 # They are compiled and linked by the commands of this build.
 function(takt_mutants name table sample)
   if(NOT TAKT_TESTS OR TAKT_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL "Release" OR NOT CMAKE_GENERATOR STREQUAL "Ninja")
     return()
   endif()
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
-  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/mutation/mutants.py --build ${PROJECT_BINARY_DIR} --ninja ${CMAKE_MAKE_PROGRAM}
+  add_test(NAME ${name} COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tests/mutation/mutants.py --build
+    ${PROJECT_BINARY_DIR} --ninja ${CMAKE_MAKE_PROGRAM}
                                 --table ${CMAKE_CURRENT_SOURCE_DIR}/${table} --sample ${sample} ${ARGN})
   set_tests_properties(${name} PROPERTIES TIMEOUT 3600)
   takt_tier(full ${name})

@@ -53,10 +53,14 @@ TEST(ReactionBound, OfCallsAtSomeParticipantsAlone) {
 
 std::map<std::string, sim::Duration> bounds_with(const std::string& callers, const std::string& script) {
   const std::string text =
-      R"({"name": "t", "duration": "1s", "network": {"generate": [{"topology": "line", "switches": 1, "hosts_per_switch": 3}]},
-  "programs": [{"name": "p", "master": "h1", "slaves": ["h2", "h3"], "cycle": "1ms"CALLERS}], "script": [{"at": "0ms", "program": "p", "call": "Start"}SCRIPT],
-  "require": [{"reaction": "suspend", "within": "1s"}, {"reaction": "halt", "within": "1s"}, {"reaction": "halt", "cause": "command", "within": "1s"},
-              {"reaction": "halt", "cause": "crash", "within": "1s"}, {"reaction": "halt", "cause": "mismatch", "within": "1s"}]})";
+      R"({"name": "t", "duration": "1s", "network": {"generate": [{"topology": "line", "switches": 1,
+      "hosts_per_switch": 3}]},
+  "programs": [{"name": "p", "master": "h1", "slaves": ["h2", "h3"], "cycle": "1ms"CALLERS}],
+      "script": [{"at": "0ms", "program": "p", "call": "Start"}SCRIPT],
+  "require": [{"reaction": "suspend", "within": "1s"}, {"reaction": "halt", "within": "1s"}, {"reaction": "halt",
+      "cause": "command", "within": "1s"},
+              {"reaction": "halt", "cause": "crash", "within": "1s"}, {"reaction": "halt", "cause": "mismatch",
+      "within": "1s"}]})";
   std::string made = text;
   made.replace(made.find("CALLERS"), 7, callers);
   made.replace(made.find("SCRIPT"), 6, script);
@@ -163,9 +167,11 @@ TEST(ReactionBound, UnboundedNotificationsAreToldFromMissingOnes) {
 std::string cell_text(const std::string& variant, const std::string& publish, const std::string& subscription,
                       const std::string& phase) {
   const std::string call = R"(, "program": "cell", "call": )";
-  return R"({"name": "cell", "duration": "60ms", "network": {"nodes": {"m": {"kind": "host"}, "a": {"kind": "host"}, "b": {"kind": "host"}, "far": {"kind": "host"},
+  return R"({"name": "cell", "duration": "60ms", "network": {"nodes": {"m": {"kind": "host"}, "a": {"kind": "host"},
+      "b": {"kind": "host"}, "far": {"kind": "host"},
     "s1": {"kind": "switch", "forwarding_delay": "1us"}, "s2": {"kind": "switch", "forwarding_delay": "1us"}},
-    "links": [{"ends": ["m", "s1"], "rate": "100Mbps"}, {"ends": ["a", "s1"], "rate": "100Mbps"}, {"ends": ["s1", "s2"], "rate": "100Mbps"},
+    "links": [{"ends": ["m", "s1"], "rate": "100Mbps"}, {"ends": ["a", "s1"], "rate": "100Mbps"}, {"ends": ["s1",
+      "s2"], "rate": "100Mbps"},
               {"ends": ["b", "s2"], "rate": "100Mbps"}, {"ends": ["far", "s2"], "rate": "100Mbps"}]},
    "streams": [{"name": "noise", "from": "far", "to": "m", "payload": "1400B", "every": "237us"}],
    "programs": [{"name": "cell", "master": "m", "slaves": ["a", "b"], "cycle": "1ms", "variant": ")" +

@@ -18,9 +18,11 @@ using sim::Duration;
 // and 50 ns of cable. 1000 octets take 8514 ns. Within 5 us come 560: 618 * 8 + 50 = 4994 ns. At 2.5 Gbit/s an octet
 // lasts 3.2 ns: 1058 * 3.2 + 50 = 3435.6 ns. There is nobody else, so neither load nor priority helps.
 constexpr const char* alone =
-    R"({"name": "alone", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"}},
+    R"({"name": "alone", "duration": "10ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"},
+      "b": {"kind": "host", "os": "none"}},
   "links": [{"ends": ["a", "b"], "rate": "1Gbps", "length": "10m"}]},
-  "streams": [{"name": "s", "from": "a", "to": "b", "payload": "1000B", "every": "1ms", "pcp": 3}], "require": [{"stream": "s", "latency": "5us"}]})";
+  "streams": [{"name": "s", "from": "a", "to": "b", "payload": "1000B", "every": "1ms", "pcp": 3}],
+      "require": [{"stream": "s", "latency": "5us"}]})";
 
 TEST(Remedies, GreatestPayloadAndLeastRate) {
   const auto scenario = resolved(alone);
@@ -49,7 +51,8 @@ TEST(Remedies, OfTheEntryThatAsksForTheFigure) {
   std::string several = alone;
   several.replace(
       several.find(R"([{"stream": "s")"), std::string::npos,
-      R"([{"stream": "s", "latency": "9us", "dropped": 0}, {"stream": "s", "jitter": "1us", "latency": "5us", "dropped": 0}]})");
+      R"([{"stream": "s", "latency": "9us", "dropped": 0}, {"stream": "s", "jitter": "1us", "latency": "5us",
+      "dropped": 0}]})");
   const auto scenario = resolved(several.c_str());
   Options options = small();
   options.helps = true;
@@ -81,9 +84,12 @@ TEST(Remedies, NoneThatWouldBeRefuted) {
 // What is said is taken at its word: each change, made by hand, is proved by takt verify.
 TEST(Remedies, EachIsProvedWhenItIsTried) {
   const std::string text =
-      R"({"name": "busy", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"}, "c": {"kind": "host", "os": "none"}, "s": {"kind": "switch"}},
-    "links": [{"ends": ["a", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"}, {"ends": ["c", "s"], "rate": "100Mbps"}]},
-    "streams": [{"name": "x", "from": "a", "to": "c", "payload": "500B", "every": "1ms", "pcp": 3}, {"name": "y", "from": "b", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3}],
+      R"({"name": "busy", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"},
+      "b": {"kind": "host", "os": "none"}, "c": {"kind": "host", "os": "none"}, "s": {"kind": "switch"}},
+    "links": [{"ends": ["a", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"}, {"ends": ["c", "s"],
+      "rate": "100Mbps"}]},
+    "streams": [{"name": "x", "from": "a", "to": "c", "payload": "500B", "every": "1ms", "pcp": 3}, {"name": "y",
+      "from": "b", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3}],
     "require": [{"stream": "x", "latency": "130us"}]})";
   Options options = small();
   options.helps = true;
@@ -119,11 +125,15 @@ Conclusion with(const scenario::Resolved& scenario, const Remedy& remedy, std::s
 // none is lost. It takes both if x has at most 278 octets, tag and FCS included, and less by what comes in meanwhile.
 TEST(Remedies, WhereFramesMayBeLostAndTheBoundIsWithinTheLimit) {
   const auto scenario = resolved(
-      R"({"name": "busy", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"},
+      R"({"name": "busy", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"},
+      "b": {"kind": "host", "os": "none"},
       "c": {"kind": "host", "os": "none"}, "s": {"kind": "switch", "queues": {"octets": "1000B"}}},
-    "links": [{"ends": ["a", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"}, {"ends": ["c", "s"], "rate": "100Mbps"}]},
-    "streams": [{"name": "x", "from": "a", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3, "encapsulation": "ethernet"},
-                {"name": "y", "from": "b", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3, "encapsulation": "ethernet"}],
+    "links": [{"ends": ["a", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"}, {"ends": ["c", "s"],
+      "rate": "100Mbps"}]},
+    "streams": [{"name": "x", "from": "a", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3,
+      "encapsulation": "ethernet"},
+                {"name": "y", "from": "b", "to": "c", "payload": "700B", "every": "1ms", "pcp": 3,
+      "encapsulation": "ethernet"}],
     "require": [{"stream": "y", "latency": "2ms"}, {"stream": "x", "latency": "1ms"}]})");
   Options options = small();
   options.helps = true;
@@ -169,9 +179,13 @@ TEST(Remedies, PublicationOnChangeComesFirst) {
 // y it waits for one frame of y alone, 110 us. y waits for one of x and z, 182 us; with x above it for both, 195 us.
 TEST(Remedies, SayWhatTheyCostOthers) {
   const auto two = resolved(
-      R"({"name": "two", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"}, "b": {"kind": "host", "os": "none"}, "c": {"kind": "host", "os": "none"},
-      "d": {"kind": "host", "os": "none"}, "s": {"kind": "switch"}}, "links": [{"ends": ["a", "s"], "rate": "100Mbps"}, {"ends": ["d", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"}, {"ends": ["c", "s"], "rate": "100Mbps"}]},
-    "streams": [{"name": "x", "from": "a", "to": "c", "payload": "100B", "every": "1ms", "pcp": 3}, {"name": "y", "from": "b", "to": "c", "payload": "1000B", "every": "1ms", "pcp": 4},
+      R"({"name": "two", "duration": "20ms", "network": {"nodes": {"a": {"kind": "host", "os": "none"},
+      "b": {"kind": "host", "os": "none"}, "c": {"kind": "host", "os": "none"},
+      "d": {"kind": "host", "os": "none"}, "s": {"kind": "switch"}}, "links": [{"ends": ["a", "s"],
+      "rate": "100Mbps"}, {"ends": ["d", "s"], "rate": "100Mbps"}, {"ends": ["b", "s"], "rate": "100Mbps"},
+      {"ends": ["c", "s"], "rate": "100Mbps"}]},
+    "streams": [{"name": "x", "from": "a", "to": "c", "payload": "100B", "every": "1ms", "pcp": 3}, {"name": "y",
+      "from": "b", "to": "c", "payload": "1000B", "every": "1ms", "pcp": 4},
                 {"name": "z", "from": "d", "to": "c", "payload": "100B", "every": "1ms", "pcp": 3}],
     "require": [{"stream": "x", "latency": "115us"}, {"name": "REQ-2", "stream": "y", "latency": "190us"}]})");
   Options options = small();

@@ -54,6 +54,7 @@ CABLES = ('<graphml><key id="kind" for="node" attr.name="kind"/><graph edgedefau
           + "".join(f'<edge source="{name}" target="sw1"/>' for name, _ in NODES[1:]) + "</graph></graphml>")
 # Files that pages take as there, by page: a text, or a path in the repository.
 FILES = {
+    "devices.md": {"swp.json": "tests/findings/import/bridge-data-sheet.json"},
     "i-want-to.md": {"plant.graphml": CABLES},
     "interchange.md": {"plant.json": INSTANCE},
     "schedules.md": {"plant.json": INSTANCE, "instance.json": INSTANCE, "new.json": json.dumps({"streams": [{"name": "axis-8", "talker": "b", "listeners": ["a"], "octets": 200, "period": 1_000_000_000}]}),

@@ -110,7 +110,7 @@ class Resolver {
       plan.kind = !node.forwards()        ? models::NodeKind::host
                   : node.is_end_station() ? models::NodeKind::station
                                           : models::NodeKind::bridge;
-      plan.port_config = port_config_of_node(ports_of(node.description));
+      plan.port_config = port_config_index(r_.plan, port_config_of(ports_of(node.description)));
       if (const EndStation* const host = end_station_of(node.description)) {
         auto found = std::find(systems.begin(), systems.end(), host->os);
         if (found == systems.end()) {
@@ -151,26 +151,6 @@ class Resolver {
       diagnostics_.error(where.place(), "jitter beside cyclic queuing",
                          {"\"cqf\", whose buffers frames reach at known times", "one of them"});
     return jitter.greatest() > Duration() ? std::make_shared<const sim::Distribution>(jitter) : nullptr;
-  }
-
-  std::uint32_t port_config_of_node(const NodePorts& ports) {
-    models::PortConfig config;
-    const Queues& queues = ports.queues;
-    config.traffic_class_of_priority = class_of_priorities(ports.traffic_classes);
-    for (models::QueueLimit& limit : config.queue_limits) {
-      if (queues.frames) limit.frames = *queues.frames;
-      if (queues.octets) limit.octets = queues.octets->count;
-      limit.drops_oldest = queues.drop == FullQueue::oldest;
-    }
-    for (const Queues::PerClass& one : queues.classes) {
-      models::QueueLimit& limit = config.queue_limits[one.traffic_class];
-      if (one.frames) limit.frames = *one.frames;
-      if (one.octets) limit.octets = one.octets->count;
-      if (one.drop) limit.drops_oldest = *one.drop == FullQueue::oldest;
-    }
-    for (models::QueueLimit& limit : config.queue_limits)
-      if (!limit.is_finite()) limit.drops_oldest = false;  // so that ports which act alike share their configuration
-    return port_config_index(r_.plan, config);
   }
 
   void take(ClockPlans clocks) {

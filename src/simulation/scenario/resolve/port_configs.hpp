@@ -8,6 +8,8 @@
 namespace takt::scenario {
 
 const models::PortConfig& port_config_of(const models::NetworkPlan& plan, const models::LinkPlan::End& end);
+/// What ports of a node have before its "egress": classes and the limits of queues.
+models::PortConfig port_config_of(const NodePorts& ports);
 /// The entry of such a configuration, which is made if there is none.
 std::uint32_t port_config_index(models::NetworkPlan& plan, const models::PortConfig& config);
 

@@ -180,7 +180,7 @@ const BadCase programs_cases[] = {
     {"RequirementOfNothing", with_requirement(R"({"within": "1ms"})"),
      R"(2:1: error at /require/0: a field is missing: expected exactly one of "reaction", "stream", "sync", "clocks", "application", "signal" or "figure")"},
     {"ReactionWithoutLimit", with_requirement(R"({"reaction": "start"})"),
-     R"(2:1: error at /require/0: missing key: found "reaction" without a limit, expected "within")"},
+     R"(2:1: error at /require/0: missing key: found "reaction" without a limit, expected "within", "late_in_a_row" or "met")"},
     {"ReactionOfAnUnknownProgram", with_requirement(R"({"reaction": "start", "program": "P", "within": "1ms"})"),
      R"(2:34: error at /require/0/program: unknown program: found "P", expected the name of a program (did you mean "p"?))"},
     {"ReactionWithoutAProgram", scenario_with(R"("require": [{"reaction": "start", "within": "1ms"}])"),
@@ -192,7 +192,8 @@ const BadCase programs_cases[] = {
     {"LimitOfTheOtherSubject", with_requirement(R"({"reaction": "start", "within": "1ms", "latency": "1ms"})"),
      R"(2:51: error at /require/0/latency: does not belong to this requirement: found "latency", expected a requirement with "stream")"},
     {"StreamWithoutLimit", with_requirement(R"({"stream": "p/state/a"})"),
-     R"(2:1: error at /require/0: missing key: found "stream" without a limit, expected "latency", "jitter", "dropped" or "delivered")"},
+     R"(2:1: error at /require/0: missing key: found "stream" without a limit, expected "latency", "jitter", )"
+     R"("dropped", "delivered", "lost_in_a_row", "late_in_a_row" or "met")"},
     {"FigureWithoutLimit", with_requirement(R"({"figure": "dropped"})"),
      R"(2:1: error at /require/0: missing key: found "figure" without a limit, expected "at_most", "at_least" or "equal")"},
     {"UnknownFigure", with_requirement(R"({"figure": "/events/0", "at_most": 1})"),

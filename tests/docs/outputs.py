@@ -125,7 +125,7 @@ def difference(block, printed):
 
 def with_figures(text, source):
     """The text with the figures of the bench as docs/performance.md shows them."""
-    printed = dict(re.findall(r"^(\w+) +([\d.]+) +[\d.]+ +(?:yes|NO) ", (source / "docs" / "performance.md").read_text(encoding="utf-8"), re.M))
+    printed = dict(re.findall(r"^(\w+) +([\d.]+) +(?:[\d.]+ +|- +){2}[\d.]+ +(?:yes|NO) ", (source / "docs" / "performance.md").read_text(encoding="utf-8"), re.M))
 
     def rounded(match):
         decimals = len(match[1].partition(".")[2])

@@ -99,7 +99,7 @@ std::span<const Rule> clock_rules() {
       {.key = "gptp_node.time", .percent = 20},
       {.key = "announced_time.utc_offset", .percent = 60, .words = "36 37 38"},
       {.key = "announced_time.source", .percent = 40, .words = "32 160"},
-      {.key = "gptp.processing", .percent = 30},
+      {.key = "gptp.processing", .percent = 12},
       {.key = "gptp.drift_tracking", .percent = 20},
       {.key = "gptp.rate_ratio_window", .percent = 20, .words = "1 4 8"},
       {.key = "gptp.average_link_delay", .percent = 20, .words = "1 4"},

@@ -208,7 +208,7 @@ std::span<const Rule> requirement_rules() {
          return s.text("application").starts_with("a") ? Made(text("th0")) : std::nullopt;
        }},
       {.key = "requirement.success",
-       .percent = 60,
+       .percent = 90,
        .make = [](Maker& m, const Scope& s) -> Made { return s.has("application") ? m.word("50 90.5 100") : Made(); }},
       {.key = "requirement.buffered",
        .percent = 40,

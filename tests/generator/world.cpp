@@ -328,13 +328,16 @@ std::optional<Node> no_gates(Maker& m, const Scope&) {
   return text("none");
 }
 
-/// Types that say little, so that they go with what the scenario has.
-std::optional<Node> device_of_node(Maker& m, const Scope&) { return m.word("plain.json exact.json"); }
+/// Types that say little, so that they go with what the scenario has. The exact one limits gates.
+std::optional<Node> device_of_node(Maker& m, const Scope&) {
+  for (const Feature each : {Feature::gates, Feature::automatic_gates, Feature::listed_gates})
+    if (m.wants(each)) return text("plain.json");
+  return m.word("plain.json exact.json");
+}
 
-/// A medium says the rate, which then is not written; one in half duplex is refused.
+/// A medium says the rate, which then is not written. One in half duplex is refused, so none is drawn.
 std::optional<Node> medium_of_link(Maker& m, const Scope& s) {
   if (s.has("rate")) return std::nullopt;
-  if (m.draw.one_in(40)) return text("10BASE-T1S");
   return m.word(m.is_slow() ? "10BASE-T 10BASE-T1L 100BASE-TX 100BASE-FX 100BASE-T1"
                             : "1000BASE-T 1000BASE-X 1000BASE-T1 2.5GBASE-T 2.5GBASE-X 5GBASE-T 10GBASE-T 10GBASE-R");
 }

@@ -508,7 +508,8 @@ class Resolver {
                  : std::optional<std::uint8_t>(0);
     if (!participant) return;
     if (const auto& callers = plant::callers_of(*program, *entry.call);
-        callers && !diagnostics_.is_refused(entry.where.at("call"))) {
+        callers && !diagnostics_.is_refused(entry.where.at("call")) &&
+        !diagnostics_.is_refused(program->where.at("callers"))) {
       const std::string& on = entry.on ? *entry.on : program->master;
       if (std::ranges::find(*callers, on) == callers->end())
         diagnostics_.error(

@@ -170,7 +170,7 @@ class Answers(unittest.TestCase):
         self.assertLessEqual(json.loads(out)["octets_per_state"], 64)
 
     def test_mistakes(self):
-        for arguments in ((), ("--slaves", 9), ("--slaves", 1, "--network", "channels=9"), ("--slaves", 1, "--network", "pigeons"),
+        for arguments in ((), ("--slaves", 13), ("--slaves", 1, "--network", "channels=9"), ("--slaves", 1, "--network", "pigeons"),
                           ("--slaves", 4, "--subscription", "all-to-all"), ("--slaves", 1, "--faults", "fire"), ("nowhere.json",)):
             status, out, err = explore(*arguments)
             self.assertEqual((status, out), (2, ""), arguments)

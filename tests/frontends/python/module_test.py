@@ -81,7 +81,7 @@ class Questions(unittest.TestCase):
         arm = takt.load(SCENARIOS / "robot-arm.json").explore(faults="loss", calls=2)
         told = json.loads(command("explore", SCENARIOS / "robot-arm.json", "--faults", "loss", "--calls", 2, "--format", "json", "--quiet"))
         self.assertEqual(arm.to_dict(), without_time(told))
-        for wrong in ({"slaves": 9}, {"slaves": 1, "faults": ["rain"]}, {"slaves": 1, "calls": -1}, {"slaves": 1, "network": "tubes"}):
+        for wrong in ({"slaves": 13}, {"slaves": 1, "faults": ["rain"]}, {"slaves": 1, "calls": -1}, {"slaves": 1, "network": "tubes"}):
             with self.assertRaises(takt.Mistake):
                 takt.explore(**wrong)
         with self.assertRaisesRegex(TypeError, "there is no argument 'fault'"):

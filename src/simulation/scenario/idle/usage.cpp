@@ -78,7 +78,7 @@ void Usage::add_rerouted() {
           if (!known.insert({entry.node.value, port, stream.index.value}).second) continue;
           const PortUse& use = this->port(entry.node.value, port);
           const Octets msdu = plan.headers + stream.largest_payload;
-          StreamAtPort at{stream.index, {}, use.node, port, use.peer};
+          StreamAtPort at{.stream = stream.index, .node = use.node, .port = port, .peer = use.peer};
           if (use.node != plan.talker.value) at.filter = ingress.filter(use.node, frame);
           at.classes = ingress.classes(use.node, *use.config, at.filter,
                                        use.node == plan.talker.value ? plan.priority_at_talker() : frame.priority);

@@ -242,6 +242,7 @@ class TreeLayer {
   std::optional<MemberPaths> lay(const std::vector<std::pair<std::uint32_t, json::Place>>& to) {
     const std::size_t errors_before = diagnostics_.errors();
     const auto refuse = [&](std::string_view key, const std::string& expected) {
+      if (diagnostics_.is_refused(redundancy_.where.at("redundancy"))) return diagnostics_.consequence();  // short form
       diagnostics_.error(redundancy_.where.at(key), "redundancy for several receivers",
                          {"\"" + std::string(key) + "\" of a stream to " + std::to_string(to.size()), expected});
     };

@@ -42,7 +42,7 @@ class Walker {
     OnHop before;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       const std::uint16_t port = port_out(r_.topology, path, i);
-      StreamAtPort made{stream.index, {}, path[i], port, path[i + 1]};
+      StreamAtPort made{.stream = stream.index, .node = path[i], .port = port, .peer = path[i + 1]};
       models::Frame frame;
       frame.stream = stream.index;
       frame.source = models::AddressIndex{plan.talker.value};
@@ -56,7 +56,7 @@ class Walker {
       made.policed_frame = models::frame_length(msdu, frame.tagged, is_policed_tagged);
       made.policed_msdu = msdu + (is_policed_tagged ? models::r_tag : Octets{0});
       if (redundancy != nullptr) before = hops[i];
-      made.member = before.member;
+      if (before.member) made.member = static_cast<std::uint32_t>(*before.member);
       if (!is_met_once && !seen_.insert({made.member ? *made.member + 1 : 0, path[i], port}).second) continue;
       const models::PortConfig& config = *configs_.at(path[i], port);
       const bool tagged = frame.tagged && !strips_tags(r_.topology, config, path[i], i == 0);

@@ -76,7 +76,7 @@ class Held(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         page = pathlib.Path(folder.name) / "docs" / "performance.md"
         page.parent.mkdir()
-        page.write_text("```\nline                 3.25        1  yes   x 7 of 8\npair               418.52      500  NO    y\n```\n", encoding="utf-8")
+        page.write_text("```\nline      3.25  3.1  3.4    1  yes  x 7 of 8\npair    418.52    -    -  500  NO   y\n```\n", encoding="utf-8")
         self.assertEqual(outputs.with_figures("4<!-- bench: pair --> and 1.0<!-- bench: line --> of 9", pathlib.Path(folder.name)), "419<!-- bench: pair --> and 3.3<!-- bench: line --> of 9")
 
     def test_a_block_without_a_marker_is_found(self):

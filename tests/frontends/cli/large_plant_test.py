@@ -12,8 +12,8 @@ import sys
 import tempfile
 
 SIDE, HOSTS_PER_SWITCH = 100, 10
-# Of the whole process, in KiB: what a computer at a desk has to spare.
-MOST_MEMORY = 2_000_000
+# Of the whole process, in KiB: 2 GiB, which a computer at a desk has to spare.
+MOST_MEMORY = 2 * 1024 * 1024
 
 
 def plant(out):

@@ -33,7 +33,7 @@ class Starts {
 
   /// The first instant at or after `from` by which `need` of time has passed in which a frame of `last_bit` surely may
   /// start.
-  Ps surely(Ps from, Ps need, Ps last_bit) const {
+  Ps certain_start(Ps from, Ps need, Ps last_bit) const {
     if (w_.is_always_open || !is_bounded(need)) return sum(from, need);
     Ps usable = 0;
     if (need > 0) {
@@ -215,7 +215,7 @@ class Sequence {
   Ps start(Ps from, Ps need, Ps last_bit) const {
     Ps time = 0;
     for (int step = 0; step < most_sequence_steps; ++step) {
-      const Ps at = starts_.surely(from, others_ ? sum(need, others_(time)) : need, last_bit);
+      const Ps at = starts_.certain_start(from, others_ ? sum(need, others_(time)) : need, last_bit);
       if (!is_bounded(at)) return unbounded_ps;
       if (!others_ || at - from <= time) return at;
       time = at - from;
@@ -289,7 +289,7 @@ class Sequence {
     std::vector<Ps> instants{arrival.earliest};
     for (const Ps end : starts_.ends(arrival.earliest, arrival.latest, last_bit)) instants.push_back(end + 1);
     for (const Ps x : instants)
-      times.wait = std::max(times.wait, starts_.surely(std::max(x, before_), 0, last_bit) - x);
+      times.wait = std::max(times.wait, starts_.certain_start(std::max(x, before_), 0, last_bit) - x);
   }
 
   /// What is carried over from round to round has settled.
